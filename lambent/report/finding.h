@@ -1,0 +1,27 @@
+// What a stage noticed and dealt with: kept-out triangles, made normals, receivers inside a mesh.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lambent::report {
+
+enum class Severity { Note, Warning };
+
+struct Finding {
+  Severity severity = Severity::Note;
+  std::string code;         ///< stable, for --json: "degenerate-triangles", "normals-made", …
+  std::string message;      ///< for people: what, where, what was done about it
+  std::uint64_t count = 0;  ///< how many triangles, vertices, … are concerned
+};
+
+using Findings = std::vector<Finding>;
+
+}  // namespace lambent::report
+
+namespace lambent {
+using report::Finding;
+using report::Findings;
+using report::Severity;
+}  // namespace lambent

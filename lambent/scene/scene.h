@@ -1,0 +1,114 @@
+// A scene as plain values: triangle meshes in world space, one material each, textures, cameras.
+// World: right-handed, +Y up, metres. Node transforms are applied on loading, so that a mesh that
+// stands in two places is two meshes: radiance transfer belongs to a place, not to a shape.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lambent/math/types.h"
+
+namespace lambent::scene {
+
+/// How light leaves a surface. Reflectances are linear RGB in [0, 1]; the base colour (texture,
+/// vertex colour) multiplies all three.
+///  - diffuse: exit radiance ρ/π · irradiance.
+///  - glossy:  exit radiance k · ∫ L(s) G(s, R) ds over the hemisphere of the normal, with R the
+///             view direction mirrored about the normal and G the Phong-like lobe
+///             (r+1)/2π · max(0, s·R)^r of unit integral (seed: Sloan 2002 §4.2).
+///  - mirror:  a perfect reflection. A surface with any mirror reflectance is a mirror and nothing
+///             else: it connects paths and records no transfer (Sloan 2002 §5).
+struct Material {
+  std::string name;
+  Rgb diffuse = Rgb::Constant(0.8f);
+  Rgb glossy = Rgb::Zero();
+  Rgb mirror = Rgb::Zero();
+  float lobeExponent = 16.0f;  ///< r of the lobe, ≥ 0
+  int baseColorTexture = -1;   ///< index into Scene::textures, or −1
+  bool doubleSided = false;    ///< as the file says; Lambent lights front faces only
+
+  bool isMirror() const { return mirror.maxCoeff() > 0.0f; }
+  bool isGlossy() const { return !isMirror() && glossy.maxCoeff() > 0.0f; }
+  bool isDiffuse() const { return !isMirror() && diffuse.maxCoeff() > 0.0f; }
+};
+
+enum class Wrap { Repeat, ClampToEdge, MirroredRepeat };
+
+/// A base-colour texture: 8-bit sRGB texels, top row first, and the file's own bytes so that an
+/// asset can carry it unchanged.
+struct Texture {
+  std::string name;
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;  ///< 4·width·height, sRGB-encoded colour, linear alpha
+  Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
+  std::vector<std::uint8_t> encoded;  ///< PNG or JPEG bytes as found, may be empty
+  std::string mimeType;               ///< "image/png" or "image/jpeg"
+};
+
+using Triangle =
+    std::array<std::uint32_t, 3>;  ///< vertex indices, counter-clockwise from the front
+
+struct Mesh {
+  std::string name;
+  int material = 0;  ///< index into Scene::materials
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;  ///< unit, one per position (loaders make them where a file has none)
+  std::vector<Vec2> uvs;      ///< TEXCOORD_0 as glTF has it (v downwards), or empty
+  std::vector<Rgb> colors;    ///< linear COLOR_0, or empty
+  std::vector<Triangle> triangles;
+};
+
+/// A pinhole or orthographic camera that looks along its −z with +y up, as glTF's.
+struct Camera {
+  std::string name;
+  Mat4 worldFromCamera = Mat4::Identity();
+  float verticalFov = 0.7f;                     ///< radians; not used if orthographic
+  std::optional<float> orthographicHalfHeight;  ///< metres, half the height of the view
+};
+
+struct Scene {
+  std::vector<Mesh> meshes;
+  std::vector<Material> materials;  ///< at least one if there is a mesh
+  std::vector<Texture> textures;
+  std::vector<Camera> cameras;
+};
+
+struct Box {
+  Vec3 lower = Vec3::Constant(std::numeric_limits<float>::infinity());
+  Vec3 upper = Vec3::Constant(-std::numeric_limits<float>::infinity());
+  bool empty() const { return !(lower.x() <= upper.x()); }
+  float diagonal() const { return empty() ? 0.0f : (upper - lower).norm(); }
+  Vec3 center() const { return 0.5f * (lower + upper); }
+  void extend(const Vec3& p) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+};
+
+Box bounds(const Scene& scene);
+
+/// Bilinear look-up in linear RGB; uv as glTF has it, (0, 0) the upper left corner.
+Rgb sampleBaseColor(const Texture& texture, const Vec2& uv);
+
+/// A point of a surface with its material evaluated: what the path tracer and the bake both see.
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 normal;           ///< unit shading normal, on the front side
+  Vec3 geometricNormal;  ///< unit, by the triangle's winding
+  Vec2 uv = Vec2::Zero();
+  Rgb diffuse, glossy, mirror;  ///< reflectances with texture and vertex colour applied
+  float lobeExponent = 0.0f;
+};
+
+/// The point of `triangle` with barycentric coordinates (1−u−v, u, v).
+SurfacePoint surfaceAt(const Scene& scene, std::uint32_t mesh, std::uint32_t triangle, float u,
+                       float v);
+
+/// The vertex of a mesh as a SurfacePoint (geometricNormal = normal).
+SurfacePoint surfaceAtVertex(const Scene& scene, std::uint32_t mesh, std::uint32_t vertex);
+
+}  // namespace lambent::scene

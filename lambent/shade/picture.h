@@ -1,0 +1,25 @@
+// A relit picture of an asset on the CPU: the oracle for lambent/render.
+#pragma once
+
+#include "lambent/asset/asset.h"
+#include "lambent/image/image.h"
+#include "lambent/light/environment.h"
+#include "lambent/report/progress.h"
+#include "lambent/scene/camera.h"
+
+namespace lambent::shade {
+
+struct PictureOptions {
+  int width = 1024, height = 1024;
+  int samples = 16;         ///< per pixel, at scene::subpixelPositions
+  bool background = false;  ///< the environment behind the object; otherwise black, alpha 0
+  std::optional<float> lobeExponent;
+};
+
+/// Linear radiance. `light` holds the harmonics that relight; `environment` is what mirrors and the
+/// background show.
+Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                             const light::Environment& environment, const scene::Camera& camera,
+                             const PictureOptions& options, const Progress& progress = {});
+
+}  // namespace lambent::shade

@@ -1,0 +1,44 @@
+// Encoded transfer · light on the CPU: the oracle for every GPU path.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lambent/asset/asset.h"
+#include "lambent/math/types.h"
+#include "lambent/sh/coefficients.h"
+
+namespace lambent::shade {
+
+/// A mesh's diffuse transfer laid out for shading: blocks of 16 receivers, coefficient after
+/// coefficient, 16 or 32 bit as encoded.
+class DiffuseShader {
+ public:
+  explicit DiffuseShader(const encode::EncodedMesh& mesh);
+  /// Exit radiance M · L of every receiver, without the base colour if the mesh keeps it outside
+  /// (transport::Albedo::BaseColor). out: 3 floats for each receiver. One thread.
+  void shade(const sh::RgbCoefficients& light, std::span<float> out) const;
+  std::size_t receiverCount() const { return receivers_; }
+
+ private:
+  std::size_t receivers_ = 0;
+  int bands_ = 0, channels_ = 0;
+  std::vector<float> single_;
+  std::vector<std::uint16_t> half_;
+};
+
+/// Transferred incident radiance M · L of every receiver (eq. 9): [receiver][channel][outBands²].
+std::vector<float> transferredRadiance(const encode::EncodedMesh& mesh,
+                                       const sh::RgbCoefficients& light);
+
+struct View {
+  std::optional<Vec3> eye;  ///< world position; none: every receiver is seen along its normal
+  std::optional<float> lobeExponent;  ///< instead of the material's
+};
+
+/// Whole exit radiance of every receiver of a mesh: diffuse and glossy (eq. 12) parts and base
+/// colour. Empty for a mirror.
+std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t mesh,
+                              const sh::RgbCoefficients& light, const View& view = {});
+
+}  // namespace lambent::shade

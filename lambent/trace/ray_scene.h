@@ -1,0 +1,72 @@
+// Scene → RayScene: the only room that knows Embree.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
+
+namespace lambent::trace {
+
+struct Hit {
+  float distance = 0.0f;
+  std::uint32_t mesh = 0;      ///< index into Scene::meshes
+  std::uint32_t triangle = 0;  ///< index into that mesh's triangles
+  float u = 0.0f, v = 0.0f;  ///< barycentric coordinates of the triangle's second and third vertex
+  bool backFace = false;     ///< the ray came from behind the triangle
+};
+
+/// An immutable acceleration structure over all meshes of a scene. Triangles are also numbered
+/// through the whole scene ("global"), mesh after mesh; so are vertices. Movable; thread-safe.
+class RayScene {
+ public:
+  /// Copies what it needs: `scene` need not outlive it. Fails on a scene without triangles.
+  static Result<RayScene> build(const scene::Scene& scene);
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+  ~RayScene();
+
+  /// The nearest surface at distance > tNear along a unit direction.
+  std::optional<Hit> closest(const Vec3& origin, const Vec3& direction, float tNear = 0.0f,
+                             float tFar = std::numeric_limits<float>::infinity()) const;
+  bool occluded(const Vec3& origin, const Vec3& direction, float tNear = 0.0f,
+                float tFar = std::numeric_limits<float>::infinity()) const;
+
+  /// How far along the normal a ray's origin is lifted off its surface: 1e-5 of the scene's
+  /// diagonal. The bake and the path tracer use the same.
+  float offset() const;
+
+  struct GlobalTriangle {
+    std::uint32_t mesh, triangle;
+  };
+  GlobalTriangle locate(std::uint32_t globalTriangle) const;
+  /// First global triangle (or vertex) of every mesh, and the total at the end.
+  std::span<const std::uint32_t> triangleOffsets() const;
+  std::span<const std::uint32_t> vertexOffsets() const;
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  explicit RayScene(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Embree wants denormals flushed on every thread that traces: hold one of these meanwhile.
+class FlushDenormals {
+ public:
+  FlushDenormals();
+  ~FlushDenormals();
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_;
+};
+
+}  // namespace lambent::trace
