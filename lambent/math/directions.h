@@ -1,0 +1,34 @@
+// Frames about a normal, and the ways from the unit square to directions, each with its density.
+// Warps return directions in the tangent frame, +z the axis; u is in [0, 1)².
+#pragma once
+
+#include "lambent/math/types.h"
+
+namespace lambent::math {
+
+/// A right-handed orthonormal frame whose third column is the unit vector `normal`; continuous but
+/// for a cut at normal.z = 0 (duff2017building).
+Mat3 worldFromTangent(const Vec3& normal);
+
+/// Area-preserving map of the unit square onto the unit disc that keeps neighbours
+/// (shirley1997low).
+Vec2 concentricDisc(const Vec2& u);
+
+Vec3 uniformSphere(const Vec2& u);
+Vec3 uniformHemisphere(const Vec2& u);
+Vec3 cosineHemisphere(const Vec2& u);                 ///< density ∝ cos θ
+Vec3 phongLobe(const Vec2& u, float exponent);        ///< density ∝ cosʳ θ on the hemisphere
+Vec3 uniformCone(const Vec2& u, float cosHalfAngle);  ///< within the half-angle of +z
+
+// Densities, sr⁻¹, at a direction whose cosine with the axis is cosTheta.
+float uniformSpherePdf();
+float uniformHemispherePdf(float cosTheta);
+float cosineHemispherePdf(float cosTheta);
+float phongLobePdf(float cosTheta, float exponent);
+float uniformConePdf(float cosTheta, float cosHalfAngle);
+
+/// The mirror image of the unit vector `outgoing` (pointing away from the surface) about the unit
+/// normal: 2 (n·o) n − o, which points away from the surface as well.
+Vec3 reflectAbout(const Vec3& outgoing, const Vec3& normal);
+
+}  // namespace lambent::math
