@@ -1,0 +1,144 @@
+#include "lambent/trace/ray_scene.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "lambent/trace/embree_scene.h"
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace lambent::trace {
+
+namespace {
+
+Error embreeError(RTCDevice device, const std::string& doing) {
+  const RTCError code = rtcGetDeviceError(device);
+  return report::failed("ray tracing: " + doing + " failed (Embree error " + std::to_string(code) +
+                        (code == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory)" : ")"));
+}
+
+RTCRay makeRay(const Vec3& origin, const Vec3& direction, float tNear, float tFar) {
+  RTCRay ray;
+  ray.org_x = origin.x(), ray.org_y = origin.y(), ray.org_z = origin.z();
+  ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
+  ray.tnear = tNear, ray.tfar = tFar;
+  ray.time = 0.0f;
+  ray.mask = ~0u, ray.id = 0, ray.flags = 0;
+  return ray;
+}
+
+}  // namespace
+
+RayScene::RayScene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+RayScene::~RayScene() = default;
+
+Result<RayScene> RayScene::build(const scene::Scene& scene) {
+  auto impl = std::make_unique<Impl>();
+  std::size_t vertexCount = 0, triangleCount = 0;
+  for (const scene::Mesh& mesh : scene.meshes) {
+    impl->vertexOffsets.push_back(static_cast<std::uint32_t>(vertexCount));
+    impl->triangleOffsets.push_back(static_cast<std::uint32_t>(triangleCount));
+    vertexCount += mesh.positions.size();
+    triangleCount += mesh.triangles.size();
+  }
+  impl->vertexOffsets.push_back(static_cast<std::uint32_t>(vertexCount));
+  impl->triangleOffsets.push_back(static_cast<std::uint32_t>(triangleCount));
+  if (triangleCount == 0) return report::badInput("the scene has no triangles to trace");
+  constexpr std::size_t kMost = 0x7fffffffu;
+  if (triangleCount > kMost || vertexCount > kMost)
+    return report::badInput("the scene has more than 2^31 triangles or vertices: split it");
+  impl->offset = 1e-5f * scene::bounds(scene).diagonal();
+
+  impl->device = rtcNewDevice(nullptr);
+  if (!impl->device) return embreeError(nullptr, "starting");
+  impl->scene = rtcNewScene(impl->device);
+  RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
+  auto* indices = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), triangleCount));
+  if (!positions || !indices) {
+    rtcReleaseGeometry(geometry);
+    return embreeError(impl->device, "allocating the triangles");
+  }
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const scene::Mesh& mesh = scene.meshes[m];
+    const std::uint32_t first = impl->vertexOffsets[m];
+    for (const Vec3& p : mesh.positions) {
+      *positions++ = p.x(), *positions++ = p.y(), *positions++ = p.z();
+    }
+    for (const scene::Triangle& t : mesh.triangles)
+      for (std::uint32_t corner : t) *indices++ = first + corner;
+  }
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(impl->scene, geometry, 0);
+  rtcReleaseGeometry(geometry);
+  rtcSetSceneBuildQuality(impl->scene, RTC_BUILD_QUALITY_MEDIUM);
+  rtcCommitScene(impl->scene);
+  if (rtcGetDeviceError(impl->device) != RTC_ERROR_NONE)
+    return embreeError(impl->device, "building the acceleration structure");
+  return RayScene(std::move(impl));
+}
+
+std::optional<Hit> RayScene::closest(const Vec3& origin, const Vec3& direction, float tNear,
+                                     float tFar) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit query;
+  query.ray = makeRay(origin, direction, tNear, tFar);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const GlobalTriangle place = locate(query.hit.primID);
+  const Vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  return Hit{query.ray.tfar, place.mesh,  place.triangle,
+             query.hit.u,    query.hit.v, normal.dot(direction) > 0.0f};
+}
+
+bool RayScene::occluded(const Vec3& origin, const Vec3& direction, float tNear, float tFar) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray = makeRay(origin, direction, tNear, tFar);
+  rtcOccluded1(impl_->scene, &context, &ray);
+  return ray.tfar < 0.0f;
+}
+
+float RayScene::offset() const {
+  return impl_->offset;
+}
+
+RayScene::GlobalTriangle RayScene::locate(std::uint32_t globalTriangle) const {
+  const auto& offsets = impl_->triangleOffsets;
+  const auto after = std::upper_bound(offsets.begin(), offsets.end(), globalTriangle);
+  const auto mesh = static_cast<std::uint32_t>(after - offsets.begin() - 1);
+  return {mesh, globalTriangle - offsets[mesh]};
+}
+
+std::span<const std::uint32_t> RayScene::triangleOffsets() const {
+  return impl_->triangleOffsets;
+}
+std::span<const std::uint32_t> RayScene::vertexOffsets() const {
+  return impl_->vertexOffsets;
+}
+
+#if defined(__SSE2__)
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
+  _mm_setcsr(saved_ | 0x8040u);  // FTZ and DAZ
+}
+FlushDenormals::~FlushDenormals() {
+  _mm_setcsr(saved_);
+}
+#else
+FlushDenormals::FlushDenormals() : saved_(0) {}
+FlushDenormals::~FlushDenormals() = default;
+#endif
+
+}  // namespace lambent::trace

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "lambent/math/directions.h"
+#include "lambent/math/random.h"
+#include "lambent/trace/cast.h"
+
+namespace lambent::trace {
+namespace {
+
+/// One triangle pair in the plane y = height, facing up or down.
+scene::Mesh square(float height, float half, bool up) {
+  scene::Mesh mesh;
+  mesh.positions = {
+      {-half, height, -half}, {half, height, -half}, {half, height, half}, {-half, height, half}};
+  mesh.normals.assign(4, Vec3(0, up ? 1 : -1, 0));
+  mesh.triangles = up ? std::vector<scene::Triangle>{{0, 2, 1}, {0, 3, 2}}
+                      : std::vector<scene::Triangle>{{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+scene::Scene floorAndCeiling() {
+  scene::Scene scene;
+  scene.materials.emplace_back();
+  scene.meshes = {square(0, 1, true), square(1, 1, false)};
+  return scene;
+}
+
+TEST(RayScene, RejectsAnEmptyScene) {
+  EXPECT_FALSE(RayScene::build(scene::Scene{}));
+}
+
+TEST(RayScene, NamesTheMeshTriangleAndSide) {
+  const auto rays = RayScene::build(floorAndCeiling());
+  ASSERT_TRUE(rays);
+  const auto up = rays->closest({0.5f, 0.5f, 0.2f}, {0, 1, 0});
+  ASSERT_TRUE(up);
+  EXPECT_EQ(up->mesh, 1u);
+  EXPECT_FALSE(up->backFace);
+  EXPECT_NEAR(up->distance, 0.5f, 1e-6f);
+  const auto behind = rays->closest({0.5f, -1, 0.2f}, {0, 1, 0});
+  ASSERT_TRUE(behind);
+  EXPECT_EQ(behind->mesh, 0u);
+  EXPECT_TRUE(behind->backFace);
+  EXPECT_FALSE(rays->closest({0.5f, 2, 0.2f}, {0, 1, 0}));
+  EXPECT_TRUE(rays->occluded({0.5f, 0.5f, 0.2f}, {0, 1, 0}));
+  EXPECT_FALSE(rays->occluded({0.5f, 0.5f, 0.2f}, {0, 1, 0}, 0.0f, 0.4f));
+  EXPECT_EQ(rays->locate(3).mesh, 1u);
+  EXPECT_EQ(rays->locate(3).triangle, 1u);
+}
+
+TEST(RayScene, BarycentricsMeetTheSurfacePoint) {
+  const scene::Scene scene = floorAndCeiling();
+  const auto rays = RayScene::build(scene);
+  ASSERT_TRUE(rays);
+  const auto hit = rays->closest({0.3f, 0.5f, -0.7f}, {0, -1, 0});
+  ASSERT_TRUE(hit);
+  const scene::SurfacePoint point =
+      scene::surfaceAt(scene, hit->mesh, hit->triangle, hit->u, hit->v);
+  EXPECT_LT((point.position - Vec3(0.3f, 0, -0.7f)).norm(), 1e-6f);
+}
+
+TEST(DirectionSet, IsEquallyWeightedWithTightBundles) {
+  const DirectionSet set(1000, math::randomRotation(3));
+  EXPECT_EQ(set.size(), 1000u);
+  Vec3d mean = Vec3d::Zero();
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    EXPECT_NEAR(set[i].norm(), 1.0f, 1e-6f);
+    mean += set[i].cast<double>() / 1000.0;
+  }
+  EXPECT_LT(mean.norm(), 1e-2);
+  EXPECT_EQ(set.bundles().size(), 63u);
+  for (std::size_t b = 0; b < set.bundles().size(); ++b)
+    for (std::size_t i = 16 * b; i < std::min<std::size_t>(16 * b + 16, set.size()); ++i) {
+      const auto& bundle = set.bundles()[b];
+      const float cosine = bundle.axis.dot(set[i]);
+      if (bundle.sinAngle < 1.0f)
+        EXPECT_LE(std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)), bundle.sinAngle + 1e-6f);
+    }
+}
+
+TEST(Cast, TakesJustTheHemisphereAndAgreesWithSingleRays) {
+  const auto rays = RayScene::build(floorAndCeiling());
+  ASSERT_TRUE(rays);
+  const FlushDenormals flush;
+  CastResult occlusion, closest;
+  for (int trial = 0; trial < 20; ++trial) {
+    const DirectionSet set(997 + trial, math::randomRotation(trial));
+    math::Random random(7, trial, 0);
+    const Vec2 u = random.uniform2();
+    const Vec3 normal = math::randomRotation(100 + trial) * Vec3(0, 0, 1);
+    const Vec3 origin(u.x() - 0.5f, 0.5f, u.y() - 0.5f);
+    castOcclusion(*rays, set, origin, normal, occlusion);
+    castClosest(*rays, set, origin, normal, closest);
+    std::set<std::uint32_t> blocked, met;
+    for (const std::uint32_t d : occlusion.occludedDirections()) blocked.insert(d);
+    for (const DirectionHit& hit : closest.hits) met.insert(hit.direction);
+    std::size_t expectedRays = 0;
+    for (std::uint32_t d = 0; d < set.size(); ++d) {
+      const bool above =
+          set[d].x() * normal.x() + set[d].y() * normal.y() + set[d].z() * normal.z() > 0.0f;
+      expectedRays += above;
+      EXPECT_EQ(blocked.count(d), above && rays->occluded(origin, set[d]) ? 1u : 0u);
+    }
+    EXPECT_EQ(occlusion.raysCast, expectedRays);
+    EXPECT_EQ(occlusion.occludedCount + occlusion.visibleCount, expectedRays);
+    EXPECT_EQ(blocked, met);
+    for (const DirectionHit& hit : closest.hits) {
+      const auto single = rays->closest(origin, set[hit.direction]);
+      ASSERT_TRUE(single);
+      const auto place = rays->locate(hit.globalTriangle);
+      EXPECT_EQ(place.mesh, single->mesh);
+      EXPECT_NEAR(hit.distance, single->distance, 1e-4f * single->distance);
+      EXPECT_EQ(hit.backFace, single->backFace);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lambent::trace
