@@ -1,0 +1,335 @@
+// OpenEXR pictures. The library does the decompression; what is chosen here:
+//   - the first part of a multi-part file;
+//   - the channels R, G, B (A) if there, else luminance Y (with RY and BY: its chroma), else the
+//     first layer that has R, G, B ("beauty.R", "ViewLayer.Combined.R"), else a single channel as
+//     grey;
+//   - the display window as the picture: what the data window lacks is black, what it has beyond is
+//     cut off.
+#include <ImathBox.h>
+#include <OpenEXR/ImfArray.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfTestFile.h>
+#include <half.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <stdexcept>
+
+#include "lambent/image/formats.h"
+
+namespace lambent::image::formats {
+namespace {
+
+using Imath::Box2i;
+
+class MemoryInput : public Imf::IStream {
+ public:
+  MemoryInput(Bytes bytes, const char* name) : Imf::IStream(name), bytes_(bytes) {}
+
+  bool read(char out[], int count) override {
+    if (count < 0 || at_ > bytes_.size() || bytes_.size() - at_ < size_t(count)) {
+      throw std::runtime_error("the file ends too early, at byte " + std::to_string(bytes_.size()));
+    }
+    std::memcpy(out, bytes_.data() + at_, size_t(count));
+    at_ += size_t(count);
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t position) override { at_ = position; }
+
+ private:
+  Bytes bytes_;
+  std::uint64_t at_ = 0;
+};
+
+class MemoryOutput : public Imf::OStream {
+ public:
+  explicit MemoryOutput(const char* name) : Imf::OStream(name) {}
+
+  void write(const char data[], int count) override {
+    if (bytes.size() < at_ + size_t(count)) bytes.resize(at_ + size_t(count));
+    std::memcpy(bytes.data() + at_, data, size_t(count));
+    at_ += size_t(count);
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+
+  std::vector<std::byte> bytes;
+
+ private:
+  std::uint64_t at_ = 0;
+};
+
+struct Channels {
+  std::array<std::string, 3> colour;  ///< the same name three times: grey
+  std::string alpha;                  ///< empty: opaque
+  bool chroma = false;                ///< Y with RY and BY
+};
+
+std::string lowered(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// R, G, B and A of one layer, by the short or long names in use, in either case.
+std::optional<Channels> colourOf(const std::vector<std::string>& names, const std::string& prefix) {
+  const auto find = [&](const char* brief, const char* full) -> std::string {
+    for (const std::string& name : names) {
+      if (!name.starts_with(prefix)) continue;
+      const std::string rest = lowered(name.substr(prefix.size()));
+      if (rest == brief || rest == full) return name;
+    }
+    return {};
+  };
+  Channels found;
+  found.colour = {find("r", "red"), find("g", "green"), find("b", "blue")};
+  found.alpha = find("a", "alpha");
+  for (const std::string& name : found.colour) {
+    if (name.empty()) return std::nullopt;
+  }
+  return found;
+}
+
+std::optional<Channels> chooseChannels(const Imf::ChannelList& list) {
+  std::vector<std::string> names;
+  for (auto i = list.begin(); i != list.end(); ++i) names.emplace_back(i.name());
+  if (std::optional<Channels> plain = colourOf(names, "")) return plain;
+  const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
+  if (has("Y")) {
+    Channels grey;
+    grey.colour = {"Y", "Y", "Y"};
+    grey.chroma = has("RY") && has("BY");
+    if (has("A")) grey.alpha = "A";
+    return grey;
+  }
+  for (const std::string& name : names) {
+    const size_t dot = name.rfind('.');
+    if (dot == std::string::npos) continue;
+    if (std::optional<Channels> layer = colourOf(names, name.substr(0, dot + 1))) return layer;
+  }
+  if (names.size() == 1) return Channels{{names[0], names[0], names[0]}, "", false};
+  return std::nullopt;
+}
+
+/// The part of the data window that the picture shows, in both coordinates.
+struct Windows {
+  Box2i data, display, common;
+  int width() const { return display.max.x - display.min.x + 1; }
+  int height() const { return display.max.y - display.min.y + 1; }
+};
+
+Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::string_view name) {
+  Windows w{header.dataWindow(), header.displayWindow(), {}};
+  for (const Box2i& box : {w.data, w.display}) {
+    if (Status sane = checkSize(static_cast<long long>(box.max.x) - box.min.x + 1,
+                                static_cast<long long>(box.max.y) - box.min.y + 1, fileBytes, name);
+        !sane) {
+      return sane.error();
+    }
+  }
+  w.common.min.x = std::max(w.data.min.x, w.display.min.x);
+  w.common.min.y = std::max(w.data.min.y, w.display.min.y);
+  w.common.max.x = std::min(w.data.max.x, w.display.max.x);
+  w.common.max.y = std::min(w.data.max.y, w.display.max.y);
+  if (w.common.isEmpty()) {
+    return report::badInput(std::string(name) +
+                            ": its data window lies wholly outside of its display window: there is "
+                            "nothing to see");
+  }
+  return w;
+}
+
+// Reads whole lines of the data window, a strip at a time, and keeps what the picture shows.
+void readParts(Imf::InputPart& part, const Channels& channels, const Windows& w, Image& image) {
+  const int dataWidth = w.data.max.x - w.data.min.x + 1;
+  constexpr int kStripLines = 256;  // DWAB packs as many into one block
+  const int planes = channels.alpha.empty() ? 3 : 4;
+  std::array<std::vector<float>, 4> plane;
+  for (int p = 0; p < planes; ++p) {
+    plane[p].resize(size_t(dataWidth) * std::min(kStripLines, w.common.max.y - w.common.min.y + 1));
+  }
+  // Grey asks for one channel; a name may stand only once in a frame buffer.
+  const bool grey = channels.colour[0] == channels.colour[1];
+  for (int top = w.common.min.y; top <= w.common.max.y; top += kStripLines) {
+    const int bottom = std::min(top + kStripLines - 1, w.common.max.y);
+    Imf::FrameBuffer frame;
+    for (int p = 0; p < planes; ++p) {
+      if (grey && (p == 1 || p == 2)) continue;
+      char* const origin = reinterpret_cast<char*>(plane[p].data()) -
+                           (std::ptrdiff_t(top) * dataWidth + w.data.min.x) *
+                               static_cast<std::ptrdiff_t>(sizeof(float));
+      frame.insert(p < 3 ? channels.colour[p] : channels.alpha,
+                   Imf::Slice(Imf::FLOAT, origin, sizeof(float), sizeof(float) * dataWidth, 1, 1,
+                              p < 3 ? 0.0 : 1.0));
+    }
+    part.setFrameBuffer(frame);
+    part.readPixels(top, bottom);
+    for (int y = top; y <= bottom; ++y) {
+      for (int x = w.common.min.x; x <= w.common.max.x; ++x) {
+        const size_t from = size_t(y - top) * dataWidth + (x - w.data.min.x);
+        const size_t to = size_t(y - w.display.min.y) * image.width + (x - w.display.min.x);
+        for (int c = 0; c < 3; ++c) image.pixels[to][c] = plane[grey ? 0 : c][from];
+        if (planes == 4) image.alpha[to] = plane[3][from];
+      }
+    }
+  }
+}
+
+// Luminance and subsampled chroma: the library upsamples and converts, in half precision.
+void readChroma(MemoryInput& input, const Windows& w, Image& image) {
+  input.seekg(0);
+  Imf::RgbaInputFile file(input);
+  const int dataWidth = w.data.max.x - w.data.min.x + 1;
+  std::vector<Imf::Rgba> line(dataWidth);
+  for (int y = w.common.min.y; y <= w.common.max.y; ++y) {
+    file.setFrameBuffer(line.data() - w.data.min.x, 1, 0);
+    file.readPixels(y);
+    for (int x = w.common.min.x; x <= w.common.max.x; ++x) {
+      const Imf::Rgba& pixel = line[x - w.data.min.x];
+      const size_t to = size_t(y - w.display.min.y) * image.width + (x - w.display.min.x);
+      image.pixels[to] = Rgb(pixel.r, pixel.g, pixel.b);
+      if (!image.alpha.empty()) image.alpha[to] = pixel.a;
+    }
+  }
+}
+
+Result<Image> readChecked(Bytes bytes, std::string_view name) {
+  const std::string streamName(name);
+  MemoryInput input(bytes, streamName.c_str());
+  // No reconstruction of a missing offset table: it would scan the file for what a writer that was
+  // killed has left, and half a picture is not wanted.
+  Imf::MultiPartInputFile file(input, 0, false);
+  const Imf::Header& header = file.header(0);
+  if (header.hasType() && Imf::isDeepData(header.type())) {
+    return report::badInput(streamName + ": deep pixels cannot be read; flatten the picture");
+  }
+  const Result<Windows> windows = windowsOf(header, bytes.size(), name);
+  if (!windows) return windows.error();
+  const std::optional<Channels> channels = chooseChannels(header.channels());
+  if (!channels) {
+    return report::badInput(streamName +
+                            ": has neither channels R, G, B nor Y in its first part; save it with "
+                            "colour channels");
+  }
+  Image image(windows->width(), windows->height());
+  if (!channels->alpha.empty()) image.alpha.assign(image.pixels.size(), 0.0f);
+  if (channels->chroma) {
+    readChroma(input, *windows, image);
+    return image;
+  }
+  for (const std::string& channel :
+       {channels->colour[0], channels->colour[1], channels->colour[2], channels->alpha}) {
+    const Imf::Channel* const found =
+        channel.empty() ? nullptr : header.channels().findChannel(channel);
+    if (found && (found->xSampling != 1 || found->ySampling != 1)) {
+      return report::badInput(streamName + ": channel " + channel +
+                              " is subsampled; save it at full resolution");
+    }
+  }
+  Imf::InputPart part(file, 0);
+  readParts(part, *channels, *windows, image);
+  return image;
+}
+
+/// One channel's pixels in the type that goes to the file.
+struct Plane {
+  std::string name;
+  std::vector<char> data;
+};
+
+Plane makePlane(std::string name, size_t count, bool halfFloat, const auto& valueAt) {
+  Plane plane{std::move(name), std::vector<char>(count * (halfFloat ? 2 : 4))};
+  for (size_t i = 0; i < count; ++i) {
+    const float value = valueAt(i);
+    if (halfFloat) {
+      const Imath::half h(std::isfinite(value) ? std::clamp(value, -65504.0f, 65504.0f) : value);
+      std::memcpy(plane.data.data() + 2 * i, &h, 2);
+    } else {
+      std::memcpy(plane.data.data() + 4 * i, &value, 4);
+    }
+  }
+  return plane;
+}
+
+void addPlanes(const Image& image, const std::string& prefix, bool halfFloat,
+               std::vector<Plane>& planes) {
+  for (int c = 0; c < 3; ++c) {
+    planes.push_back(makePlane(prefix + "RGB"[c], image.pixels.size(), halfFloat,
+                               [&](size_t i) { return image.pixels[i][c]; }));
+  }
+  if (!image.alpha.empty()) {
+    planes.push_back(makePlane(prefix + "A", image.alpha.size(), halfFloat,
+                               [&](size_t i) { return image.alpha[i]; }));
+  }
+}
+
+}  // namespace
+
+bool isExr(Bytes bytes) {
+  constexpr std::array<unsigned char, 4> kMagic{0x76, 0x2f, 0x31, 0x01};
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), kMagic.data(), 4) == 0;
+}
+
+Result<Image> readExr(Bytes bytes, std::string_view name) {
+  try {
+    return readChecked(bytes, name);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {
+    std::string what = problem.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    return report::badInput(std::string(name) + ": cannot be read as OpenEXR: " + what +
+                            " The file is damaged or cut off");
+  }
+}
+
+Result<std::vector<std::byte>> writeExr(const Image& image, std::string_view name,
+                                        const WriteOptions& options) {
+  std::vector<Plane> planes;
+  addPlanes(image, "", options.halfFloat, planes);
+  for (const auto& [layer, picture] : options.layers) {
+    if (picture->width != image.width || picture->height != image.height) {
+      return report::badUsage(std::string(name) + ": the layer " + layer +
+                              " has another size than the picture");
+    }
+    addPlanes(*picture, layer + ".", options.halfFloat, planes);
+  }
+  const Imf::PixelType type = options.halfFloat ? Imf::HALF : Imf::FLOAT;
+  const size_t size = options.halfFloat ? 2 : 4;
+  try {
+    Imf::Header header(image.width, image.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer frame;
+    for (Plane& plane : planes) {
+      header.channels().insert(plane.name, Imf::Channel(type));
+      frame.insert(plane.name, Imf::Slice(type, plane.data.data(), size, size * image.width));
+    }
+    const std::string streamName(name);
+    MemoryOutput output(streamName.c_str());
+    {
+      Imf::OutputFile file(output, header);
+      file.setFrameBuffer(frame);
+      file.writePixels(image.height);
+    }
+    return std::move(output.bytes);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {
+    return report::failed(std::string(name) + ": cannot be written as OpenEXR: " + problem.what());
+  }
+}
+
+}  // namespace lambent::image::formats
