@@ -1,0 +1,80 @@
+# The commands a person uses. Each does its own set-up (tools/setup.sh: Debian 12, root or sudo).
+BUILD  ?= build/release
+PREFIX ?= /usr/local
+JOBS   ?= $(shell nproc)
+# Rooms whose tests run under sanitizers in `make asan`: where files, bits and indices are handled.
+ASAN_ROOMS ?= file math radiometry sh image compare scene scene_io encode asset light
+
+$(shell mkdir -p build)
+
+.PHONY: all help setup inputs configure build test demo figures bench install asan tsan format \
+        check-format check clean
+
+all: build
+
+help:
+	@echo 'make                     build the library and the tool into $(BUILD)'
+	@echo 'make demo                bake a bunny, relight it, compare with the path-traced truth'
+	@echo 'make test                build and run every test'
+	@echo 'make bench               measure; CSV files under bench/results/'
+	@echo 'make figures             the pictures of docs/reproduction.md'
+	@echo 'make install PREFIX=DIR  DIR/bin/lambent, the library and its CMake package'
+	@echo 'make asan | tsan         tests under sanitizers'
+	@echo 'make check               formatting, rooms, references'
+	@echo 'make format              clang-format everything'
+
+setup:
+	@tools/setup.sh
+
+inputs: setup
+	@tools/fetch-inputs.sh
+
+configure: setup
+	@cmake --preset release -B $(BUILD) $(CMAKE_ARGS) > $(BUILD)-configure.log 2>&1 \
+	  || { cat $(BUILD)-configure.log; exit 1; }
+
+build: configure
+	@cmake --build $(BUILD) --parallel $(JOBS)
+
+test: build inputs
+	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure
+
+demo: build inputs
+	@tools/demo.sh $(BUILD)/apps/lambent/lambent
+
+figures: build inputs
+	@tools/figures.sh $(BUILD)/apps/lambent/lambent
+
+bench: build setup
+	@tools/fetch-inputs.sh dragon
+	@bench/run.sh $(BUILD)
+
+install: build
+	@cmake --install $(BUILD) --prefix '$(PREFIX)' > $(BUILD)-install.log
+	@echo 'installed: $(PREFIX)/bin/lambent'
+
+asan: setup
+	@cmake --preset asan > build/asan-configure.log 2>&1 || { cat build/asan-configure.log; exit 1; }
+	@cmake --build build/asan --parallel $(JOBS) --target $(ASAN_ROOMS:%=lambent_%_tests)
+	@ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure \
+	  -L '^($(shell echo $(ASAN_ROOMS) | tr ' ' '|'))$$'
+
+tsan: setup
+	@cmake --preset tsan > build/tsan-configure.log 2>&1 || { cat build/tsan-configure.log; exit 1; }
+	@cmake --build build/tsan --parallel $(JOBS) --target lambent_trace_tests lambent_transport_tests
+	@ctest --test-dir build/tsan --output-on-failure -L '^(trace|transport)$$'
+
+SOURCES = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
+
+format: setup
+	@clang-format -i $(SOURCES)
+
+check-format: setup
+	@clang-format --dry-run -Werror $(SOURCES)
+
+check: check-format
+	@python3 tools/check_rooms.py
+	@python3 tools/check_references.py
+
+clean:
+	@rm -rf build

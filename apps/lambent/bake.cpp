@@ -1,0 +1,224 @@
+// lambent bake SCENE -o ASSET.glb
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/scene_arguments.h"
+#include "apps/lambent/verbs.h"
+#include "lambent/asset/asset.h"
+#include "lambent/encode/encoded_field.h"
+#include "lambent/trace/ray_scene.h"
+#include "lambent/transport/bake.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct BakeArguments {
+  SceneArguments scene;
+  std::filesystem::path output;
+  transport::BakeOptions options;
+  std::string transfer = "interreflected", encoding = "float16";
+  std::vector<std::string> texels;  ///< MESH=WxH, or WxH for every mesh with UVs
+};
+
+constexpr std::string_view kExamples = R"(Examples:
+  lambent bake bunny.obj -o bunny.glb
+      Soft shadows and two bounces at every vertex, for light of 5 bands.
+  lambent bake bunny.obj -o draft.glb --directions 1024 --transfer shadowed
+      A quick look.
+  lambent bake teapot.glb -o teapot.glb --material glossy --lobe 64 --bands 7
+      As if everything were polished: a transfer matrix at every vertex.
+  lambent bake ring.gltf -o ring.glb --texels ground=256x256
+      The mesh "ground" is baked on a grid over its UVs: caustics finer than its vertices.
+)";
+
+Result<transport::TransferKind> parseTransfer(const std::string& name) {
+  if (name == "unshadowed") return transport::TransferKind::Unshadowed;
+  if (name == "shadowed") return transport::TransferKind::Shadowed;
+  return transport::TransferKind::Interreflected;
+}
+
+/// "ground=256x256" names a mesh by name or number; "256x256" means every mesh with UVs.
+Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::string>& texts,
+                                                        const scene::Scene& scene) {
+  std::vector<transport::TexelGrid> grids;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.rfind('=');
+    const Result<Size> size =
+        parseSize(std::string_view(text).substr(equals == text.npos ? 0 : equals + 1));
+    if (!size) return size.error();
+    const std::string wanted = equals == text.npos ? std::string() : text.substr(0, equals);
+    std::size_t found = 0;
+    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+      const scene::Mesh& mesh = scene.meshes[m];
+      const bool mirror = scene.materials[std::size_t(mesh.material)].isMirror();
+      const bool chosen = equals == text.npos ? !mesh.uvs.empty() && !mirror
+                                              : mesh.name == wanted || std::to_string(m) == wanted;
+      if (!chosen) continue;
+      grids.push_back({m, size->width, size->height});
+      ++found;
+    }
+    if (found > 0) continue;
+    std::string names;
+    for (const scene::Mesh& mesh : scene.meshes)
+      names += (names.empty() ? "" : ", ") + (mesh.name.empty() ? "(no name)" : mesh.name);
+    return badUsage(
+        equals == text.npos
+            ? "--texels: no mesh of this scene has UVs: give it some, or bake vertices"
+            : fmt::format("--texels {}: there is no such mesh; there are {}", text, names));
+  }
+  return grids;
+}
+
+Status runBake(BakeArguments arguments, Console& console) {
+  Status writable = checkOutput(arguments.output, {".glb"}, arguments.scene.path);
+  if (!writable) return writable;
+  auto scene = arguments.scene.load(console);
+  if (!scene) return scene.error();
+
+  transport::BakeOptions& options = arguments.options;
+  auto grids = resolveTexels(arguments.texels, *scene);
+  if (!grids) return grids.error();
+  options.texels = *grids;
+  options.kind = *parseTransfer(arguments.transfer);
+  options.threads = console.options().threads;
+
+  auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene); });
+  if (!rays) return rays.error();
+  Findings findings;
+  auto field = transport::bake(*scene, *rays, options, console.progress(), findings);
+  console.report(findings);
+  if (!field) return field.error();
+
+  asset::Asset asset;
+  asset.transfer = console.stage("encode", [&] {
+    return encode::encode(*field, arguments.encoding == "float32" ? encode::Encoding::Float32
+                                                                  : encode::Encoding::Float16);
+  });
+  *field = {};  // as large as the asset again
+  asset.scene = std::move(*scene);
+  Status status =
+      written(console.stage("write", [&] { return asset::write(asset, arguments.output); }));
+  if (!status) return status;
+
+  std::uint64_t rayCount = 0;
+  double raySeconds = 0.0, seconds = 0.0;
+  std::string times;
+  for (const StageTime& stage : console.stages()) {
+    seconds += stage.seconds;
+    times += fmt::format("  {:<28} {:>8}", stage.name, formatSeconds(stage.seconds));
+    if (stage.unit == "rays" && stage.units > 0 && stage.seconds > 0.0) {
+      rayCount += stage.units;
+      raySeconds += stage.seconds;
+      times += fmt::format("  {}", formatRate(double(stage.units) / stage.seconds, "rays"));
+    }
+    times += '\n';
+  }
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(arguments.output, ignored);
+  std::size_t receivers = 0;
+  for (const encode::EncodedMesh& mesh : asset.transfer.meshes) receivers += mesh.receiverCount();
+  Description transfer = describe(asset.transfer, asset.scene);
+  const double rate = raySeconds > 0.0 ? double(rayCount) / raySeconds : 0.0;
+  console.finish(
+      {{"output", arguments.output.string()},
+       {"bytes", bytes},
+       {"receivers", receivers},
+       {"rays", rayCount},
+       {"rays_per_second", rate},
+       {"seconds", seconds},
+       {"transfer", transfer.json}},
+      fmt::format("{}: {}\n{}{} receivers, {} rays at {}, {} in all\n{}", arguments.output.string(),
+                  formatBytes(double(bytes)), transfer.text, formatCount(receivers),
+                  formatCount(rayCount), formatRate(rate, "rays"), formatSeconds(seconds), times));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addBake(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<BakeArguments>();
+  CLI::App* app = root.add_subcommand(
+      "bake", "Simulate once how light moves over a scene, and write an asset to relight");
+  app->footer(std::string(kExamples));
+  transport::BakeOptions& options = arguments->options;
+  arguments->scene.addTo(*app);
+  app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
+      ->option_text("ASSET.glb")
+      ->required();
+  app->add_option("--transfer", arguments->transfer,
+                  "unshadowed, shadowed, or interreflected (shadows and bounces)")
+      ->check(CLI::IsMember({"unshadowed", "shadowed", "interreflected"}))
+      ->option_text("KIND")
+      ->capture_default_str()
+      ->group("Transfer");
+  app->add_option("--bands", options.bands,
+                  "Bands of the light that will relight it, 1 to 10: 3 for overcast skies, 5 for "
+                  "soft shadows, more for smaller lights")
+      ->check(CLI::Range(1, 10))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app->add_option("--glossy-bands", options.glossyBands,
+                  "Rows of glossy matrices in bands, 1 to 10; 0: as --bands")
+      ->check(CLI::Range(0, 10))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app->add_option("--directions", options.directions,
+                  "Directions over the whole sphere, the same for every receiver. Twice as many: "
+                  "twice the time, and a smaller error")
+      ->check(CLI::Range(1, 1 << 24))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app->add_option("--bounces", options.bounces, "Bounces beyond the direct light, at most")
+      ->check(CLI::Range(0, 1000))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app->add_option("--energy-threshold", options.energyThreshold,
+                  "Stop bouncing when a pass has less than this fraction of the direct light's "
+                  "energy, as in 0.001")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("FRACTION")
+      ->capture_default_str()
+      ->group("Transfer");
+  app->add_option("--texels", arguments->texels,
+                  "Bake a mesh on a grid over its UVs instead of at its vertices; without MESH: "
+                  "every mesh with UVs. May be given several times")
+      ->option_text("[MESH=]WxH")
+      ->check([](const std::string& text) -> std::string {
+        const std::size_t equals = text.rfind('=');
+        const Result<Size> size =
+            parseSize(std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1));
+        return size ? "" : size.error().message;
+      })
+      ->group("Transfer");
+  app->add_option("--seed", options.seed,
+                  "Turns the set of directions: two seeds err independently")
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app->add_option("--encoding", arguments->encoding, "float16, or float32 for exact round trips")
+      ->check(CLI::IsMember({"float16", "float32"}))
+      ->option_text("KIND")
+      ->capture_default_str()
+      ->group("Output");
+  app->add_option("--hit-memory", options.hitMemory,
+                  "Memory for remembered hits, as in 2GB; what does not fit is cast again")
+      ->transform(CLI::AsSizeValue(false))
+      ->option_text("SIZE")
+      ->default_str("2GiB")
+      ->group("Output");
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return runBake(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

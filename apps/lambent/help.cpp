@@ -1,0 +1,98 @@
+#include "apps/lambent/help.h"
+
+#include <sstream>
+
+namespace lambent::tool {
+
+const std::string_view kOverview =
+    R"(Lambent bakes how light moves over an asset once, and then relights it under any sky.)";
+
+const std::string_view kOverviewFooter = R"(In the sequence in which a person uses them:
+  lambent info model.glb                               what is in the file?
+  lambent bake model.glb -o baked.glb                  simulate once how light moves over it
+  lambent render baked.glb --light sky.exr -o a.png    relight it, as often as you like
+  lambent render baked.glb --light disc:30,45,20 -o b.png
+  lambent reference model.glb --light sky.exr -o truth.exr
+  lambent render baked.glb --light sky.exr -o ours.exr
+  lambent compare truth.exr ours.exr --strip strip.png how far from the truth is it?
+
+'lambent VERB --help' explains a verb with examples.
+Exit codes: 0 done, 1 the work failed, 2 wrong usage, 3 bad input.
+)";
+
+const std::string_view kSourceHelp = R"(SOURCE of light:
+  FILE.exr FILE.hdr FILE.png   an environment image, latitude-longitude
+  LIGHT.json                   coefficients written by 'lambent light'
+  uniform[:RADIANCE]           the same from everywhere
+  disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]
+                               degrees; azimuth from +x towards +z, elevation from the horizon
+  A+B+…                        the sum of several. RADIANCE is one number or R/G/B.
+)";
+
+HelpFormatter::HelpFormatter() {
+  column_width(32);
+}
+
+std::string wrapped(std::string_view text, std::size_t width, std::string_view indent) {
+  std::string out;
+  std::size_t column = 0;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    if (text[at] == '\n') {
+      out += '\n';
+      out += indent;
+      column = 0;
+      ++at;
+      continue;
+    }
+    const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
+    const std::size_t length = end - at;
+    if (column > 0 && column + 1 + length > width) {
+      out += '\n';
+      out += indent;
+      column = 0;
+    }
+    if (column > 0) {
+      out += ' ';
+      ++column;
+    }
+    out.append(text.substr(at, length));
+    column += length;
+    at = end < text.size() && text[end] == ' ' ? end + 1 : end;
+  }
+  return out;
+}
+
+std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {
+  const std::size_t left = get_column_width();
+  std::string description = make_option_desc(option);
+  if (!option->get_default_str().empty())
+    description += " (default: " + option->get_default_str() + ")";
+  const std::string indent(left, ' ');
+  std::string name = "  " + make_option_name(option, isPositional) + make_option_opts(option);
+  if (name.size() + 2 > left)
+    name += "\n" + indent;
+  else
+    name.resize(left, ' ');
+  return name + wrapped(description, 98 - left, indent) + "\n";
+}
+
+std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+  if (!option->get_option_text().empty()) return " " + option->get_option_text();
+  if (option->get_type_size() == 0) return "";
+  return option->get_type_name().empty() ? "" : " " + option->get_type_name();
+}
+
+std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const {
+  std::ostringstream out;
+  out << "\nUsage: " << (app->get_parent() ? "lambent " + app->get_name() : name);
+  for (const CLI::Option* option : app->get_options())
+    if (option->get_positional()) out << ' ' << option->get_name(true, false);
+  for (const CLI::Option* option : app->get_options())
+    if (option->nonpositional() && option->get_required())
+      out << ' ' << option->get_name(false, false) << make_option_opts(option);
+  out << (app->get_parent() ? " [OPTIONS]\n" : " VERB …\n");
+  return out.str();
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,123 @@
+// lambent info FILE
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/receiver_file.h"
+#include "apps/lambent/verbs.h"
+#include "lambent/asset/asset.h"
+#include "lambent/file/atomic_file.h"
+#include "lambent/image/io.h"
+#include "lambent/light/environment.h"
+#include "lambent/light/source.h"
+#include "lambent/scene_io/load.h"
+
+namespace lambent::tool {
+
+namespace {
+
+constexpr std::string_view kExamples = R"(Examples:
+  lambent info model.glb          meshes, materials, cameras, and what is odd in them
+  lambent info baked.glb          also: bands, directions, bounces, encoding
+  lambent info sky.exr            size, range, and what it is as a light
+  lambent info light.json --json  for a script
+)";
+
+struct Whole {
+  std::string kind;
+  Description description;
+};
+
+Result<Whole> describeModel(const std::filesystem::path& path, Console& console) {
+  if (extensionOf(path) == ".glb") {
+    const Result<bool> baked = asset::isAsset(path);
+    if (!baked) return baked.error();
+    if (*baked) {
+      const auto asset = asset::read(path);
+      if (!asset) return asset.error();
+      Description scene = describe(asset->scene);
+      const Description transfer = describe(asset->transfer, asset->scene);
+      scene.text += transfer.text;
+      scene.json["transfer"] = transfer.json;
+      return Whole{"asset", scene};
+    }
+  }
+  const auto loaded = scene_io::load(path);
+  if (!loaded) {
+    if (extensionOf(path) == ".ply" && loaded.error().kind == ErrorKind::BadInput) {
+      if (const auto receivers = readReceivers(path))
+        return Whole{"receivers",
+                     {fmt::format("{} shaded receivers\n", formatCount(receivers->size())),
+                      {{"receivers", receivers->size()}}}};
+    }
+    return loaded.error();
+  }
+  console.report(loaded->findings);
+  return Whole{"scene", describe(loaded->scene)};
+}
+
+Result<Whole> describeImage(const std::filesystem::path& path) {
+  auto image = image::read(path);
+  if (!image) return image.error();
+  Description d = describe(*image);
+  if (image->width == 2 * image->height) {  // the shape of a latitude-longitude map
+    const Description light = describe(light::Environment::latLong(std::move(*image)).project(5));
+    d.text += "as a light: " + light.text;
+    d.json["light"] = light.json;
+  }
+  return Whole{"image", d};
+}
+
+Result<Whole> describeFile(const std::filesystem::path& path, Console& console) {
+  const std::string extension = extensionOf(path);
+  if (extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".ply")
+    return describeModel(path, console);
+  if (extension == ".exr" || extension == ".hdr" || extension == ".png") return describeImage(path);
+  if (extension == ".json") {
+    const auto light = light::readLight(path);
+    if (!light) return light.error();
+    return Whole{"light", describe(*light)};
+  }
+  if (extension == ".csv") {
+    const auto receivers = readReceivers(path);
+    if (!receivers) return receivers.error();
+    return Whole{"receivers",
+                 {fmt::format("{} shaded receivers\n", formatCount(receivers->size())),
+                  {{"receivers", receivers->size()}}}};
+  }
+  return badInput(fmt::format(
+      "{}: what ends in '{}' is unknown here; info reads .glb .gltf .obj .ply .exr .hdr .png "
+      ".json .csv",
+      path.string(), extension));
+}
+
+Status runInfo(const std::filesystem::path& path, Console& console) {
+  const auto whole = describeFile(path, console);
+  if (!whole) return whole.error();
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+  Json json = {{"file", path.string()}, {"kind", whole->kind}, {"bytes", bytes}};
+  json.update(whole->description.json);
+  console.finish(json, fmt::format("{}: {}, {}\n{}", path.string(), whole->kind,
+                                   formatBytes(double(bytes)), whole->description.text));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addInfo(CLI::App& root, ConsoleOptions& common) {
+  auto path = std::make_shared<std::filesystem::path>();
+  CLI::App* app =
+      root.add_subcommand("info", "Say what is in a scene, an asset, an image or a light");
+  app->footer(std::string(kExamples));
+  app->add_option("FILE", *path, "The file to look into")->required();
+  addCommonOptions(*app, common);
+  return {app, [path](Console& console) { return runInfo(*path, console); }};
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,74 @@
+// lambent light SOURCE -o LIGHT.json
+#include "lambent/light/source.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/light_arguments.h"
+#include "apps/lambent/verbs.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct Arguments {
+  LightArguments light;
+  std::filesystem::path output;
+  int bands = 5;
+};
+
+constexpr std::string_view kExamples = R"(
+Examples:
+  lambent light sky.exr -o sky.json
+      An environment image becomes 25 coefficients per channel.
+  lambent light disc:30,60,0.53,40000+uniform:0.3 -o noon.json --window minimal
+      A sun of the sun's size and an even sky, softened so that no direction is darker than black.
+  lambent light sky.exr -o turned.json --rotate-y 90 --bands 3
+)";
+
+Status runLight(const Arguments& arguments, Console& console) {
+  Status writable = checkOutput(arguments.output, {".json"}, arguments.light.source);
+  if (!writable) return writable;
+  const auto environment = arguments.light.environment(console);
+  if (!environment) return environment.error();
+  const auto light = arguments.light.coefficients(*environment, arguments.bands, console);
+  if (!light) return light.error();
+  Status status =
+      written(console.stage("write", [&] { return light::writeLight(*light, arguments.output); }));
+  if (!status) return status;
+  const Description description = describe(*light);
+  console.finish({{"output", arguments.output.string()}, {"light", description.json}},
+                 fmt::format("{}: {}", arguments.output.string(), description.text));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addLight(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* app = root.add_subcommand(
+      "light", "Project a light to spherical harmonics, and write them as JSON");
+  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  arguments->light.addTo(*app, true);
+  app->add_option("-o,--output", arguments->output, "The coefficients to write, a .json")
+      ->option_text("LIGHT.json")
+      ->required();
+  app->add_option("--bands", arguments->bands,
+                  "Bands to keep, 1 to 10: their square is how many "
+                  "coefficients a channel has")
+      ->check(CLI::Range(1, 10))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Light");
+  arguments->light.addWindowTo(*app);
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return runLight(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,27 @@
+// --light SOURCE, turned and windowed.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/lambent/console.h"
+#include "lambent/light/environment.h"
+#include "lambent/report/result.h"
+#include "lambent/sh/coefficients.h"
+
+namespace lambent::tool {
+
+struct LightArguments {
+  std::string source;
+  double rotateY = 0.0;  ///< degrees, right-handed about +y
+  std::string window = "none";
+
+  void addTo(CLI::App& app, bool positional);
+  void addWindowTo(CLI::App& app);
+  Result<light::Environment> environment(Console& console) const;
+  /// The environment in n bands, windowed.
+  Result<sh::RgbCoefficients> coefficients(const light::Environment& environment, int bands,
+                                           Console& console) const;
+};
+
+}  // namespace lambent::tool

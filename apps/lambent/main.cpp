@@ -1,0 +1,68 @@
+// lambent: bakes how light moves over an asset, and relights it.
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <new>
+#include <optional>
+
+#include "apps/lambent/console.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/interrupt.h"
+#include "apps/lambent/verbs.h"
+
+namespace {
+
+using namespace lambent;
+using namespace lambent::tool;
+
+Status run(const Verb& verb, const ConsoleOptions& options, Console& console) {
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, size_t(options.threads));
+  try {
+    return verb.run(console);
+  } catch (const std::bad_alloc&) {
+    return failed(
+        "out of memory. Ask for less at once: fewer --bands or --glossy-bands, a smaller "
+        "--hit-memory, --size or --texels grid, or a mesh with fewer vertices");
+  } catch (const std::exception& e) {
+    return failed(std::string("unexpected: ") + e.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  installInterruptHandlers();
+
+  CLI::App root{std::string(kOverview), "lambent"};
+  root.formatter(std::make_shared<HelpFormatter>());
+  root.set_version_flag("--version", "lambent " LAMBENT_VERSION, "Print the version");
+  root.require_subcommand(0, 1);
+  root.footer(std::string(kOverviewFooter));
+
+  ConsoleOptions options;
+  const std::array verbs = {addBake(root, options),      addLight(root, options),
+                            addShade(root, options),     addRender(root, options),
+                            addReference(root, options), addCompare(root, options),
+                            addInfo(root, options)};
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return root.exit(e);
+    const auto named = root.get_subcommands();
+    complain(e.what(),
+             named.empty() ? "lambent --help" : "lambent " + named.front()->get_name() + " --help");
+    return kExitUsage;
+  }
+
+  for (const Verb& verb : verbs) {
+    if (!verb.app->parsed()) continue;
+    Console console(options);
+    const Status status = run(verb, options, console);
+    return status ? kExitDone : console.fail(status.error());
+  }
+  std::fputs(root.help().c_str(), stdout);
+  return kExitDone;
+}

@@ -1,0 +1,81 @@
+#include "apps/lambent/picture_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "lambent/scene/camera.h"
+
+namespace lambent::tool {
+
+void ViewArguments::addTo(CLI::App& app) {
+  addParsed(app, "--size", size, parseSize, "Size of the picture in pixels (default: 1024x1024)")
+      ->option_text("WIDTHxHEIGHT")
+      ->group("Picture");
+  app.add_option("--camera", camera,
+                 "A camera of the file, by name or number; auto frames the whole scene. Without "
+                 "it: the file's first camera, or auto")
+      ->option_text("NAME")
+      ->group("Picture");
+  app.add_flag("--background", background, "Show the environment behind the object")
+      ->group("Picture");
+}
+
+Result<scene::Camera> ViewArguments::choose(const scene::Scene& scene) const {
+  const float aspect = float(size.width) / float(size.height);
+  if (camera == "auto" || (camera.empty() && scene.cameras.empty()))
+    return scene::frameAutomatically(scene, aspect);
+  if (camera.empty()) return scene.cameras.front();
+  for (const scene::Camera& each : scene.cameras)
+    if (each.name == camera) return each;
+  const Result<double> number = parseNumber(camera);
+  if (number && *number >= 0.0 && *number < double(scene.cameras.size()) &&
+      *number == std::floor(*number))
+    return scene.cameras[size_t(*number)];
+  std::string names = "auto";
+  for (const scene::Camera& each : scene.cameras) names += ", " + each.name;
+  return badUsage(fmt::format("--camera {}: there is no such camera; there are {}", camera, names));
+}
+
+void DevelopmentArguments::addTo(CLI::App& app) {
+  app.add_option("--exposure", exposure,
+                 "Exposure in EV, each step twice as bright, or auto. EXR pictures stay linear and "
+                 "take an exposure only when one is given as a number")
+      ->check([](const std::string& text) -> std::string {
+        return text == "auto" || parseNumber(text) ? "" : "'" + text + "' is neither EV nor auto";
+      })
+      ->option_text("EV|auto")
+      ->capture_default_str()
+      ->group("Development");
+  app.add_option("--tone", tone, "Tone curve of PNG pictures: filmic or linear")
+      ->check(CLI::IsMember({"filmic", "linear"}))
+      ->option_text("CURVE")
+      ->capture_default_str()
+      ->group("Development");
+}
+
+float DevelopmentArguments::exposureFor(const image::Image& picture) const {
+  const Result<double> number = parseNumber(exposure);
+  return number ? float(*number) : automaticExposure(picture);
+}
+
+radiometry::ToneCurve DevelopmentArguments::curve() const {
+  return tone == "linear" ? radiometry::ToneCurve::Linear : radiometry::ToneCurve::Filmic;
+}
+
+float automaticExposure(const image::Image& picture) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const float y = radiometry::luminance(picture.pixels[i]);
+    const bool covered = picture.alpha.empty() || picture.alpha[i] > 0.0f;
+    if (!covered || !(y > 0.0f) || !std::isfinite(y)) continue;
+    sum += std::log2(double(y));
+    ++count;
+  }
+  if (count == 0) return 0.0f;
+  return float(std::log2(0.18) - sum / double(count));
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,38 @@
+// --size and --camera; --exposure and --tone: what a picture shows and how it is developed.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/console.h"
+#include "lambent/image/image.h"
+#include "lambent/radiometry/tone.h"
+#include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
+
+namespace lambent::tool {
+
+struct ViewArguments {
+  Size size{1024, 1024};
+  std::string camera;  ///< name or number in the file, "auto", or empty: the file's first, if any
+  bool background = false;
+
+  void addTo(CLI::App& app);
+  Result<scene::Camera> choose(const scene::Scene& scene) const;
+};
+
+struct DevelopmentArguments {
+  std::string exposure = "auto";  ///< EV, or auto
+  std::string tone = "filmic";
+
+  void addTo(CLI::App& app);
+  /// The exposure in EV for this picture.
+  float exposureFor(const image::Image& picture) const;
+  radiometry::ToneCurve curve() const;
+};
+
+/// The EV that takes the log-average luminance of what is covered and lit to 0.18.
+float automaticExposure(const image::Image& picture);
+
+}  // namespace lambent::tool

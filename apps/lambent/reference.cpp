@@ -1,0 +1,161 @@
+// lambent reference SCENE --light SOURCE -o OUT.exr
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/light_arguments.h"
+#include "apps/lambent/picture_arguments.h"
+#include "apps/lambent/scene_arguments.h"
+#include "apps/lambent/verbs.h"
+#include "lambent/image/io.h"
+#include "lambent/reference/path_tracer.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct Arguments {
+  SceneArguments scene;
+  LightArguments light;
+  std::filesystem::path output;
+  ViewArguments view;
+  DevelopmentArguments development;
+  reference::PathTraceOptions options;
+  std::string transfer = "interreflected";
+  int bands = 0;
+};
+
+constexpr std::string_view kExamples = R"(
+Examples:
+  lambent reference bunny.obj --light sky.exr -o truth.exr --spp 256
+      What a bake is measured against: radiance, and the variance of every pixel in a second layer.
+  lambent reference bunny.glb --light sky.exr -o truth.exr --bands 5
+      The light cut to the 5 bands that a bake of 5 bands sees: what then differs from
+      'lambent render' is the error of the bake, not of the light.
+)";
+
+/// How far the mean is from the truth, relative to it: √(Σ variance / Σ mean²), over what is
+/// covered.
+double estimatedError(const reference::Picture& picture) {
+  double variance = 0.0, power = 0.0;
+  for (std::size_t i = 0; i < picture.mean.pixels.size(); ++i) {
+    if (!picture.mean.alpha.empty() && picture.mean.alpha[i] <= 0.0f) continue;
+    variance += double(picture.variance.pixels[i].sum());
+    power += double(picture.mean.pixels[i].square().sum());
+  }
+  return power > 0.0 ? std::sqrt(variance / power) : 0.0;
+}
+
+Status runReference(Arguments arguments, Console& console) {
+  Status writable = checkOutput(arguments.output, {".exr", ".png"}, arguments.scene.path);
+  if (!writable) return writable;
+  const auto scene = arguments.scene.load(console);
+  if (!scene) return scene.error();
+  auto environment = arguments.light.environment(console);
+  if (!environment) return environment.error();
+  if (arguments.bands > 0) {
+    const auto light = arguments.light.coefficients(*environment, arguments.bands, console);
+    if (!light) return light.error();
+    environment = light::Environment::harmonics(*light);
+  } else if (arguments.light.window != "none") {
+    return badUsage("--window softens the bands of a light: give --bands too");
+  }
+  const auto camera = arguments.view.choose(*scene);
+  if (!camera) return camera.error();
+  const auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene); });
+  if (!rays) return rays.error();
+
+  reference::PathTraceOptions& options = arguments.options;
+  options.shadows = arguments.transfer != "unshadowed";
+  if (arguments.transfer != "interreflected") options.bounces = 0;
+  options.background = arguments.view.background;
+  options.threads = console.options().threads;
+  const auto began = std::chrono::steady_clock::now();
+  auto picture = reference::picture(*scene, *rays, *environment, *camera, arguments.view.size.width,
+                                    arguments.view.size.height, options, console.progress());
+  if (!picture) return picture.error();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+
+  const bool linear = extensionOf(arguments.output) == ".exr";
+  const float ev = linear ? 0.0f : arguments.development.exposureFor(picture->mean);
+  Status status = written(console.stage("write", [&] {
+    if (linear)
+      return image::write(picture->mean, arguments.output,
+                          {.halfFloat = false, .layers = {{"variance", &picture->variance}}});
+    return image::write(radiometry::toneMap(picture->mean, ev, arguments.development.curve()),
+                        arguments.output);
+  }));
+  if (!status) return status;
+  const double error = estimatedError(*picture);
+  console.finish(
+      {{"output", arguments.output.string()},
+       {"spp", options.samples},
+       {"bounces", options.bounces},
+       {"bands", arguments.bands},
+       {"estimated_relative_rmse", error},
+       {"exposure", ev},
+       {"seconds", seconds},
+       {"picture", describe(picture->mean).json}},
+      fmt::format("{}: {}, {} paths per pixel, {} bounces, {}\n"
+                  "estimated relative RMSE of its own noise: {:.3g}%\n",
+                  arguments.output.string(), formatSize(arguments.view.size), options.samples,
+                  options.bounces, formatSeconds(seconds), 100.0 * error));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addReference(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* app =
+      root.add_subcommand("reference", "Path-trace the scene: the truth to compare with");
+  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  arguments->scene.addTo(*app);
+  arguments->light.addTo(*app, false);
+  app->add_option("-o,--output", arguments->output,
+                  "The picture: .exr for linear radiance with a layer of variance, or .png")
+      ->option_text("OUT.exr|OUT.png")
+      ->required();
+  app->add_option("--spp", arguments->options.samples,
+                  "Paths per pixel. Four times as many: half the noise")
+      ->check(CLI::Range(1, 1 << 20))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Simulation");
+  app->add_option("--bounces", arguments->options.bounces,
+                  "Bounces beyond the direct light, as in a bake")
+      ->check(CLI::Range(0, 1000))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Simulation");
+  app->add_option("--transfer", arguments->transfer,
+                  "unshadowed, shadowed, or interreflected, as in a bake")
+      ->check(CLI::IsMember({"unshadowed", "shadowed", "interreflected"}))
+      ->option_text("KIND")
+      ->capture_default_str()
+      ->group("Simulation");
+  app->add_option("--seed", arguments->options.seed, "Two seeds have independent noise")
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Simulation");
+  app->add_option("--bands", arguments->bands,
+                  "Cut the light to this many bands, as a bake sees it; 0: the whole light")
+      ->check(CLI::Range(0, 10))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Light");
+  arguments->light.addWindowTo(*app);
+  arguments->view.addTo(*app);
+  arguments->development.addTo(*app);
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return runReference(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,129 @@
+// lambent render ASSET --light SOURCE -o OUT.png|OUT.exr
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/light_arguments.h"
+#include "apps/lambent/picture_arguments.h"
+#include "apps/lambent/verbs.h"
+#include "lambent/asset/asset.h"
+#include "lambent/image/io.h"
+#include "lambent/render/gl_picture.h"
+#include "lambent/shade/picture.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct Arguments {
+  std::filesystem::path asset, output;
+  LightArguments light;
+  ViewArguments view;
+  DevelopmentArguments development;
+  std::string backend = "gl";
+  int samples = 16;
+  std::optional<double> lobeExponent;
+};
+
+constexpr std::string_view kExamples = R"(
+Examples:
+  lambent render bunny.glb --light sky.exr -o bunny.png
+  lambent render bunny.glb --light sky.exr -o bunny.png --rotate-y 120 --background --size 1920x1080
+  lambent render bunny.glb --light disc:45,30,20 -o bunny.png --window minimal --exposure 1.5
+  lambent render bunny.glb --light sky.exr -o bunny.exr --backend cpu
+      Linear radiance, to measure or to compare.
+)";
+
+Status runRender(const Arguments& arguments, Console& console) {
+  Status writable = checkOutput(arguments.output, {".png", ".exr"}, arguments.asset);
+  if (!writable) return writable;
+  const auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
+  if (!asset) return asset.error();
+  const auto environment = arguments.light.environment(console);
+  if (!environment) return environment.error();
+  const auto light = arguments.light.coefficients(*environment, asset->transfer.bands, console);
+  if (!light) return light.error();
+  const auto camera = arguments.view.choose(asset->scene);
+  if (!camera) return camera.error();
+
+  shade::PictureOptions options;
+  options.width = arguments.view.size.width;
+  options.height = arguments.view.size.height;
+  options.samples = arguments.samples;
+  options.background = arguments.view.background;
+  if (arguments.lobeExponent) options.lobeExponent = float(*arguments.lobeExponent);
+  const auto backend = arguments.backend == "gl" ? &render::picture : &shade::picture;
+  const auto began = std::chrono::steady_clock::now();
+  auto picture = backend(*asset, *light, *environment, *camera, options, console.progress());
+  if (!picture) {
+    if (arguments.backend == "gl" && picture.error().kind == ErrorKind::Failed)
+      return failed(picture.error().message + ". --backend cpu needs no OpenGL");
+    return picture.error();
+  }
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+
+  const bool linear = extensionOf(arguments.output) == ".exr";
+  const bool exposed = !linear || arguments.development.exposure != "auto";
+  const float ev = exposed ? arguments.development.exposureFor(*picture) : 0.0f;
+  Status status = written(console.stage("write", [&] {
+    if (!linear)
+      return image::write(radiometry::toneMap(*picture, ev, arguments.development.curve()),
+                          arguments.output);
+    if (exposed)
+      for (Rgb& pixel : picture->pixels) pixel *= std::exp2(ev);
+    return image::write(*picture, arguments.output);
+  }));
+  if (!status) return status;
+  console.finish(
+      {{"output", arguments.output.string()},
+       {"backend", arguments.backend},
+       {"exposure", ev},
+       {"seconds", seconds},
+       {"picture", describe(*picture).json}},
+      fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", arguments.output.string(),
+                  formatSize(arguments.view.size), arguments.backend, ev, formatSeconds(seconds)));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addRender(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* app = root.add_subcommand("render", "Relight an asset and draw a picture");
+  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  app->add_option("ASSET", arguments->asset, "A .glb that 'lambent bake' wrote")->required();
+  arguments->light.addTo(*app, false);
+  app->add_option("-o,--output", arguments->output,
+                  "The picture: .png for the eye, .exr for linear radiance")
+      ->option_text("OUT.png|OUT.exr")
+      ->required();
+  arguments->view.addTo(*app);
+  app->add_option("--backend", arguments->backend, "gl (OpenGL 4.5, without a window) or cpu")
+      ->check(CLI::IsMember({"gl", "cpu"}))
+      ->option_text("NAME")
+      ->capture_default_str()
+      ->group("Picture");
+  app->add_option("--samples", arguments->samples, "Samples per pixel against jagged edges")
+      ->check(CLI::Range(1, 4096))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Picture");
+  app->add_option("--lobe", arguments->lobeExponent,
+                  "Exponent of glossy lobes instead of the baked material's")
+      ->check(CLI::Range(0.0, 1e5))
+      ->option_text("EXPONENT")
+      ->group("Picture");
+  arguments->development.addTo(*app);
+  arguments->light.addWindowTo(*app);
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return runRender(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

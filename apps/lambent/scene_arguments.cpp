@@ -1,0 +1,81 @@
+#include "apps/lambent/scene_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/lambent/arguments.h"
+#include "lambent/asset/asset.h"
+#include "lambent/scene_io/load.h"
+
+namespace lambent::tool {
+
+namespace {
+
+/// One material's reflectance moves to the kind that was asked for.
+void overrideMaterial(const SceneArguments& arguments, scene::Material& material) {
+  const Rgb own = material.isMirror()    ? material.mirror
+                  : material.isDiffuse() ? material.diffuse
+                                         : material.glossy;
+  const Rgb reflectance = arguments.albedo.value_or(own);
+  std::string kind = arguments.material;
+  if (kind.empty() && arguments.albedo)
+    kind = material.isMirror() ? "mirror" : material.isDiffuse() ? "diffuse" : "glossy";
+  if (!kind.empty()) {
+    material.diffuse = material.glossy = material.mirror = Rgb::Zero();
+    (kind == "mirror"   ? material.mirror
+     : kind == "glossy" ? material.glossy
+                        : material.diffuse) = reflectance;
+  }
+  if (arguments.lobeExponent) material.lobeExponent = float(*arguments.lobeExponent);
+}
+
+}  // namespace
+
+void SceneArguments::addTo(CLI::App& app) {
+  app.add_option("SCENE", path, "The scene: .glb, .gltf, .obj or .ply")->required();
+  app.add_option("--material", material,
+                 "Make every surface diffuse, glossy or mirror, whatever the file says")
+      ->check(CLI::IsMember({"diffuse", "glossy", "mirror"}))
+      ->option_text("KIND")
+      ->group("Material");
+  addParsed(app, "--albedo", albedo, parseRgb,
+            "Reflectance of every surface, linear, 0 to 1 per channel. Textures still multiply it")
+      ->check([](const std::string& text) -> std::string {
+        const Result<Rgb> rgb = parseRgb(text);
+        if (rgb && (rgb->minCoeff() < 0.0f || rgb->maxCoeff() > 1.0f))
+          return "a reflectance lies between 0 and 1: a surface cannot send out more light than "
+                 "it gets";
+        return "";
+      })
+      ->option_text("R,G,B")
+      ->group("Material");
+  app.add_option("--lobe", lobeExponent,
+                 "Exponent of every glossy lobe: 4 is satin, 64 is polished")
+      ->check(CLI::Range(0.0, 1e5))
+      ->option_text("EXPONENT")
+      ->group("Material");
+}
+
+Result<scene::Scene> SceneArguments::load(Console& console) const {
+  scene::Scene scene;
+  bool baked = false;
+  if (extensionOf(path) == ".glb") {
+    const Result<bool> isAsset = asset::isAsset(path);
+    baked = isAsset && *isAsset;  // what cannot be read is the loader's to explain
+  }
+  if (baked) {
+    auto asset = console.stage("load", [&] { return asset::read(path); });
+    if (!asset) return asset.error();
+    scene = std::move(asset->scene);
+  } else {
+    auto loaded = console.stage("load", [&] { return scene_io::load(path); });
+    if (!loaded) return loaded.error();
+    console.report(loaded->findings);
+    scene = std::move(loaded->scene);
+  }
+  for (scene::Material& each : scene.materials) overrideMaterial(*this, each);
+  return scene;
+}
+
+}  // namespace lambent::tool

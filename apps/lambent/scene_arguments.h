@@ -1,0 +1,26 @@
+// SCENE and the material given to a file that brings none.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/lambent/console.h"
+#include "lambent/math/types.h"
+#include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
+
+namespace lambent::tool {
+
+struct SceneArguments {
+  std::filesystem::path path;
+  std::string material;  ///< diffuse, glossy, mirror or empty: as the file says
+  std::optional<Rgb> albedo;
+  std::optional<double> lobeExponent;
+
+  void addTo(CLI::App& app);
+  /// Reads the scene (or the scene inside a baked asset) and reports what was odd in it.
+  Result<scene::Scene> load(Console& console) const;
+};
+
+}  // namespace lambent::tool

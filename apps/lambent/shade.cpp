@@ -1,0 +1,105 @@
+// lambent shade ASSET --light SOURCE -o OUT.ply|OUT.csv
+#include "lambent/shade/shade.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/light_arguments.h"
+#include "apps/lambent/receiver_file.h"
+#include "apps/lambent/verbs.h"
+#include "lambent/asset/asset.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct Arguments {
+  std::filesystem::path asset, output;
+  LightArguments light;
+  std::optional<Vec3> eye;
+  std::optional<double> lobeExponent;
+};
+
+constexpr std::string_view kExamples = R"(
+Examples:
+  lambent shade bunny.glb --light sky.exr -o bunny.csv
+      Exit radiance of every vertex, one row each, for a spreadsheet or a script.
+  lambent shade teapot.glb --light sky.exr -o teapot.ply --eye 0,1,4 --lobe 32
+      Seen from a point, which matters to glossy surfaces.
+)";
+
+Status runShade(const Arguments& arguments, Console& console) {
+  Status writable = checkOutput(arguments.output, {".ply", ".csv"}, arguments.asset);
+  if (!writable) return writable;
+  const auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
+  if (!asset) return asset.error();
+  const auto environment = arguments.light.environment(console);
+  if (!environment) return environment.error();
+  const auto light = arguments.light.coefficients(*environment, asset->transfer.bands, console);
+  if (!light) return light.error();
+
+  shade::View view;
+  view.eye = arguments.eye;
+  if (arguments.lobeExponent) view.lobeExponent = float(*arguments.lobeExponent);
+  const auto receivers = console.stage("shade", [&] {
+    std::vector<ShadedReceiver> all;
+    for (std::uint32_t m = 0; m < asset->transfer.meshes.size(); ++m) {
+      const encode::EncodedMesh& mesh = asset->transfer.meshes[m];
+      const std::vector<Rgb> radiance = shade::exitRadiance(*asset, m, *light, view);
+      for (std::size_t i = 0; i < radiance.size(); ++i)
+        if (mesh.covered.empty() || mesh.covered[i])
+          all.push_back({mesh.positions[i], mesh.normals[i], radiance[i]});
+    }
+    return all;
+  });
+  Status status =
+      written(console.stage("write", [&] { return writeReceivers(receivers, arguments.output); }));
+  if (!status) return status;
+
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  for (const ShadedReceiver& receiver : receivers) sum += receiver.radiance.cast<double>();
+  const Rgb mean =
+      receivers.empty() ? Rgb(Rgb::Zero()) : Rgb((sum / double(receivers.size())).cast<float>());
+  console.finish({{"output", arguments.output.string()},
+                  {"receivers", receivers.size()},
+                  {"mean_radiance", asJson(mean)}},
+                 fmt::format("{}: {} receivers, mean exit radiance {:.5g} {:.5g} {:.5g}\n",
+                             arguments.output.string(), formatCount(receivers.size()), mean[0],
+                             mean[1], mean[2]));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addShade(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* app = root.add_subcommand(
+      "shade", "Relight an asset and write the exit radiance of every receiver as numbers");
+  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  app->add_option("ASSET", arguments->asset, "A .glb that 'lambent bake' wrote")->required();
+  arguments->light.addTo(*app, false);
+  app->add_option("-o,--output", arguments->output,
+                  "Columns x,y,z,nx,ny,nz,r,g,b in world space, .ply (binary) or .csv")
+      ->option_text("OUT.ply|OUT.csv")
+      ->required();
+  addParsed(*app, "--eye", arguments->eye, parseTriple,
+            "Where the viewer stands. Without it every receiver is seen along its normal")
+      ->option_text("X,Y,Z")
+      ->group("View");
+  app->add_option("--lobe", arguments->lobeExponent,
+                  "Exponent of glossy lobes instead of the baked material's")
+      ->check(CLI::Range(0.0, 1e5))
+      ->option_text("EXPONENT")
+      ->group("View");
+  arguments->light.addWindowTo(*app);
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return runShade(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Runs every benchmark and keeps its figures as CSV. usage: bench/run.sh BUILD [FILTER]
+#   bench/results/<machine>/<name>.csv
+# Programs on Google Benchmark write it by --benchmark_out; bake_bench takes the path of its CSV.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$1
+filter=${2:-}
+
+model=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)
+machine=$(printf '%s %s cores' "${model:-unknown}" "$(nproc)" | tr '[:upper:]' '[:lower:]' |
+  sed -E 's/\((r|tm)\)//g; s/[^a-z0-9]+/-/g; s/^-|-$//g')
+results=bench/results/$machine
+mkdir -p "$results"
+
+for program in "$build"/bench/lambent_*_bench; do
+  name=$(basename "$program")
+  name=${name#lambent_}
+  if [[ -n $filter && $name != *"$filter"* ]]; then continue; fi
+  printf '\n== %s\n' "$name"
+  if [ "$name" = bake_bench ]; then
+    "$program" "$results/$name.csv"
+  else
+    "$program" --benchmark_out="$results/$name.csv" --benchmark_out_format=csv
+  fi
+done
+echo
+echo "figures: $results/"

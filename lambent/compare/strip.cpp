@@ -1,0 +1,41 @@
+#include "lambent/compare/strip.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace lambent::compare {
+
+image::Image difference(const image::Image& a, const image::Image& b, float gain) {
+  assert(a.width == b.width && a.height == b.height);
+  image::Image out(a.width, a.height);
+  for (std::size_t i = 0; i < out.pixels.size(); ++i)
+    out.pixels[i] = (b.pixels[i] - a.pixels[i]).abs() * gain;
+  return out;
+}
+
+image::Image over(const image::Image& picture, const Rgb& backdrop) {
+  image::Image out(picture.width, picture.height);
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+    const float alpha = picture.alpha.empty() ? 1.0f : picture.alpha[i];
+    out.pixels[i] = picture.pixels[i] + (1.0f - alpha) * backdrop;
+  }
+  return out;
+}
+
+image::Image strip(std::span<const image::Image> panels, int gap, const Rgb& gapColor) {
+  if (panels.empty()) return {};
+  int width = gap * (int(panels.size()) - 1);
+  for (const image::Image& panel : panels) width += panel.width;
+  image::Image out(width, panels.front().height);
+  std::fill(out.pixels.begin(), out.pixels.end(), gapColor);
+  int left = 0;
+  for (const image::Image& panel : panels) {
+    assert(panel.height == out.height);
+    for (int y = 0; y < panel.height; ++y)
+      std::copy_n(&panel.at(0, y), panel.width, &out.at(left, y));
+    left += panel.width + gap;
+  }
+  return out;
+}
+
+}  // namespace lambent::compare
