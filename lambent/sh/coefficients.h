@@ -24,6 +24,14 @@ constexpr int bandOf(int i) {
   return l;
 }
 
+/// The number of bands that `count` coefficients make; asserts that count is a square.
+constexpr int bandsOf(std::size_t count) {
+  int bands = 0;
+  while (std::size_t(bands) * std::size_t(bands) < count) ++bands;
+  assert(std::size_t(bands) * std::size_t(bands) == count);
+  return bands;
+}
+
 /// A spherical function of three channels, linear RGB: an environment's radiance (W m⁻² sr⁻¹).
 struct RgbCoefficients {
   int bands = 0;
