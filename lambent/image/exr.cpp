@@ -109,11 +109,7 @@ std::optional<Channels> chooseChannels(const Imf::ChannelList& list) {
   if (std::optional<Channels> plain = colourOf(names, "")) return plain;
   const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
   if (has("Y")) {
-    Channels grey;
-    grey.colour = {"Y", "Y", "Y"};
-    grey.chroma = has("RY") && has("BY");
-    if (has("A")) grey.alpha = "A";
-    return grey;
+    return Channels{{"Y", "Y", "Y"}, std::string(has("A") ? "A" : ""), has("RY") && has("BY")};
   }
   for (const std::string& name : names) {
     const size_t dot = name.rfind('.');

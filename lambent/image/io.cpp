@@ -40,7 +40,7 @@ Status checkSize(long long width, long long height, size_t fileBytes, std::strin
     return report::badInput(std::string(name) + ": its header says " + size +
                             " pixels; the most that can be read are " + std::to_string(limit));
   }
-  if (static_cast<size_t>(width * height) / 4096 > fileBytes) {
+  if (static_cast<size_t>(width * height) / kMaxPixelsPerByte > fileBytes) {
     return report::badInput(std::string(name) + ": its header says " + size +
                             " pixels, which cannot come out of " + std::to_string(fileBytes) +
                             " bytes; the file is damaged or cut off");
