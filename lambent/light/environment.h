@@ -23,24 +23,37 @@ class Environment {
   /// A light at infinity in one direction: irradiance on a surface that faces it (W m⁻²). It has
   /// no radiance to look up; project() and sample() know it.
   static Environment directional(const Vec3& direction, const Rgb& irradiance);
-  /// Radiance · max(0, cos) about an axis.
+  /// Radiance · max(0, cos) about a unit axis.
   static Environment clampedCosine(const Vec3& axis, const Rgb& radiance);
+  /// A light given by its harmonics. Where it rings below zero its radiance is negative, and stays
+  /// so.
   static Environment harmonics(sh::RgbCoefficients coefficients);
+  /// A map in latitude and longitude: the pixel at (u, v), v from the top, is the direction with
+  /// u = atan2(z, x)/2π + ½ and elevation asin(y) = π(½ − v); bilinear between the pixels' centres.
+  /// Pixels that are not finite count as black (parseSource rejects them); negative ones stay.
   static Environment latLong(image::Image image);
 
+  /// What stood in direction s stands in dstFromSrc·s (a proper rotation).
   Environment rotated(const Mat3& dstFromSrc) const;
   friend Environment operator+(const Environment& a, const Environment& b);
 
+  /// From a unit direction; without the directional lights.
   Rgb radiance(const Vec3& direction) const;
+  /// ∫ radiance y_i ds for 1 … 10 bands, directional lights included: closed forms for the analytic
+  /// lights, and for an image the exact projection of what radiance() returns.
   sh::RgbCoefficients project(int bands) const;
 
-  /// A direction drawn in proportion to radiance (luminance), for two uniform numbers in [0, 1).
+  /// A direction drawn in proportion to radiance (luminance of its absolute value), for two uniform
+  /// numbers in [0, 1). The mean of radianceOverPdf · f(direction) is ∫ radiance f ds, directional
+  /// lights included.
   struct Sample {
     Vec3 direction;
     Rgb radianceOverPdf;  ///< radiance / pdf: the estimator's weight
     float pdf = 0.0f;     ///< per steradian; infinite for a directional light
   };
   Sample sample(float u1, float u2) const;
+  /// The density with which sample() draws a direction, sr⁻¹; never 0 where there is radiance. Over
+  /// the sphere it integrates to 1 less the share of draws that goes to directional lights.
   float pdf(const Vec3& direction) const;
 
   struct Impl;

@@ -1,0 +1,222 @@
+// The grammar of SOURCE and the file LIGHT.json: what is understood, and how the rest is refused.
+#include "lambent/light/source.h"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "lambent/image/io.h"
+#include "lambent/math/random.h"
+
+namespace lambent::light {
+namespace {
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              (std::string("lambent-light-") + test->test_suite_name() + test->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string write(const std::string& name, std::string_view text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  std::string writeImage(const std::string& name, const image::Image& image) const {
+    const Status status = image::write(image, path(name));
+    EXPECT_TRUE(status) << status.error().message;
+    return path(name);
+  }
+
+  std::filesystem::path folder_;
+};
+using Source = Files;
+using LightFile = Files;
+
+void expectLight(std::string_view text, const Environment& expected) {
+  const Result<Environment> light = parseSource(text);
+  ASSERT_TRUE(light) << text << ": " << light.error().message;
+  const auto a = light->project(6), b = expected.project(6);
+  for (std::size_t i = 0; i < a.values.size(); ++i)
+    EXPECT_NEAR(a.values[i], b.values[i], 1e-5f * (1 + std::abs(b.values[i]))) << text;
+}
+
+void expectError(std::string_view text, ErrorKind kind, std::initializer_list<const char*> words) {
+  const Result<Environment> light = parseSource(text);
+  ASSERT_FALSE(light) << text;
+  EXPECT_EQ(int(light.error().kind), int(kind)) << text << ": " << light.error().message;
+  for (const char* word : words)
+    EXPECT_NE(light.error().message.find(word), std::string::npos)
+        << "'" << word << "' is missing in: " << light.error().message;
+}
+
+TEST_F(Source, AnalyticLights) {
+  const float h = std::sqrt(0.5f);
+  expectLight("uniform", Environment::uniform(Rgb::Ones()));
+  expectLight("uniform:0.25", Environment::uniform(Rgb::Constant(0.25f)));
+  expectLight("uniform:1/2/3", Environment::uniform(Rgb(1, 2, 3)));
+  expectLight("disc:0,0,30", Environment::disc(Vec3::UnitX(), kPi / 6, Rgb::Ones()));
+  expectLight("disc:90,0,30,2", Environment::disc(Vec3::UnitZ(), kPi / 6, Rgb::Constant(2)));
+  expectLight("disc:90,45,360,1/0/0.5", Environment::disc(Vec3(0, h, h), 2 * kPi, Rgb(1, 0, 0.5f)));
+  expectLight("disc:-90,-90,1,2e+4",
+              Environment::disc(-Vec3::UnitY(), kPi / 180, Rgb::Constant(2e4f)));
+  expectLight("directional:180,0,3", Environment::directional(-Vec3::UnitX(), Rgb::Constant(3)));
+}
+
+TEST_F(Source, SumsAddUp) {
+  expectLight("uniform:1+uniform:2/3/4", Environment::uniform(Rgb(3, 4, 5)));
+  expectLight("uniform:1e+1+disc:0,90,60+uniform:1E+1",
+              Environment::uniform(Rgb::Constant(20)) +
+                  Environment::disc(Vec3::UnitY(), kPi / 3, Rgb::Ones()));
+}
+
+TEST_F(Source, MistakesComeWithAnExample) {
+  const ErrorKind usage = ErrorKind::BadUsage;
+  expectError("", usage, {"empty", "uniform"});
+  expectError("+", usage, {"'+'"});
+  expectError("uniform:1+", usage, {"'+'"});
+  expectError("uniform:", usage, {"uniform:1"});
+  expectError("uniform:red", usage, {"'red'", "uniform:1"});
+  expectError("uniform:1/2", usage, {"'1/2'"});
+  expectError("uniform:-1", usage, {"'-1'"});
+  expectError("uniform:nan", usage, {"'nan'"});
+  expectError("uniform:1e40", usage, {"'1e40'"});
+  expectError("disc", usage, {"AZIMUTH", "disc:45,60,30"});
+  expectError("disc:1,2", usage, {"2 values", "disc:45,60,30"});
+  expectError("disc:1,2,3,4,5", usage, {"5 values"});
+  expectError("disc:north,2,3", usage, {"azimuth 'north'"});
+  expectError("disc:0,91,3", usage, {"elevation 91"});
+  expectError("disc:0,0,0", usage, {"angular diameter 0", "directional:"});
+  expectError("disc:0,0,361", usage, {"angular diameter 361"});
+  expectError("disc:0,0,inf", usage, {"'inf'"});
+  expectError("directional:1", usage, {"1 value;", "directional:45,60"});
+  expectError("sun:1", usage, {"'sun:1'", "disc:"});
+  expectError("scene.glb", usage, {"'scene.glb'", ".exr"});
+}
+
+TEST_F(Source, Images) {
+  image::Image image(8, 4);
+  for (int i = 0; i < 32; ++i) image.pixels[i] = Rgb(float(i), 1, 0.5f);
+  const Environment expected = Environment::latLong(image);
+  expectLight(writeImage("map.exr", image), expected);
+  expectLight(writeImage("a+b.exr", image), expected);
+  expectLight(path("a+b.exr") + "+uniform:2+" + path("map.exr"),
+              expected + expected + Environment::uniform(Rgb::Constant(2)));
+  std::filesystem::copy_file(path("map.exr"), path("MAP.EXR"));
+  expectLight(path("MAP.EXR"), expected);
+}
+
+TEST_F(Source, ImagesThatAreNoLight) {
+  expectError(path("none.exr"), ErrorKind::BadInput, {"none.exr"});
+  expectError(write("broken.hdr", "#?RADIANCE\n"), ErrorKind::BadInput, {"broken.hdr"});
+  expectError(writeImage("square.exr", image::Image(4, 4)), ErrorKind::BadInput,
+              {"square.exr", "4 x 4", "2:1"});
+}
+
+TEST_F(Source, PixelsThatAreNoRadiance) {
+  image::Image image(8, 4);
+  for (Rgb& p : image.pixels) p = Rgb(1, 2, 3);
+  image.at(5, 2) = Rgb(1, std::numeric_limits<float>::infinity(), 3);
+  image.at(6, 3) = Rgb(std::nanf(""), -1, 3);
+  const std::string file = writeImage("map.exr", image);
+  expectError(file, ErrorKind::BadInput, {"map.exr", "column 5, row 2", "(1, inf, 3)"});
+
+  Findings findings;
+  const Result<Environment> light = parseSource(file, &findings);
+  ASSERT_TRUE(light) << light.error().message;
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].code, "light-pixels-repaired");
+  EXPECT_EQ(findings[0].count, 2u);
+  EXPECT_NE(findings[0].message.find("column 5, row 2"), std::string::npos);
+  EXPECT_EQ(findings[1].code, "light-pixels-negative");
+  image.at(5, 2) = Rgb(1, 2, 3);
+  image.at(6, 3) = Rgb(0, 0, 3);
+  const auto a = light->project(4), b = Environment::latLong(image).project(4);
+  for (std::size_t i = 0; i < a.values.size(); ++i) EXPECT_EQ(a.values[i], b.values[i]);
+}
+
+TEST_F(LightFile, ComesBackBitForBit) {
+  math::Random random(4, 4);
+  for (const int bands : {1, 2, 5, 10}) {
+    sh::RgbCoefficients light(bands);
+    for (float& value : light.values) {
+      const std::uint32_t bits = std::uint32_t(random.bits() >> 32);
+      std::memcpy(&value, &bits, sizeof value);
+      if (!std::isfinite(value)) value = std::numeric_limits<float>::denorm_min();
+    }
+    light.values[0] = 0.1f;
+    light.values[1] = -0.0f;
+    light.values[2] = std::numeric_limits<float>::max();
+    const Status written = writeLight(light, path("light.json"));
+    ASSERT_TRUE(written) << written.error().message;
+    const auto read = readLight(path("light.json"));
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->bands, bands);
+    EXPECT_EQ(std::memcmp(read->values.data(), light.values.data(), 4 * light.values.size()), 0);
+    const Result<Environment> source = parseSource(path("light.json"));
+    ASSERT_TRUE(source);
+    EXPECT_EQ(source->project(bands).values, light.values);
+  }
+}
+
+TEST_F(LightFile, IsReadable) {
+  sh::RgbCoefficients light(1);
+  light.channel(0)[0] = 0.5f;
+  light.channel(1)[0] = 0.1f;
+  light.channel(2)[0] = 2;
+  ASSERT_TRUE(writeLight(light, path("light.json")));
+  std::ifstream file(path("light.json"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text,
+            "{\n  \"lambent\": \"light\",\n  \"bands\": 1,\n  \"coefficients\": [\n"
+            "    [0.5, 0.100000001, 2]\n  ]\n}\n");
+}
+
+TEST_F(LightFile, RefusesWhatIsNoLight) {
+  const auto refuse = [&](std::string_view text, std::initializer_list<const char*> words) {
+    const std::string file = write("light.json", text);
+    expectError(file, ErrorKind::BadInput, {"light.json"});
+    expectError(file, ErrorKind::BadInput, words);
+  };
+  refuse("", {"not JSON", "\"coefficients\""});
+  refuse("{\"lambent\": \"light\",\n \"bands\": }", {"not JSON", "line 2"});
+  refuse("[1, 2]", {"\"lambent\": \"light\""});
+  refuse("{\"lambent\": \"asset\"}", {"\"lambent\": \"light\""});
+  refuse(R"({"lambent": "light", "bands": "2"})", {"\"bands\""});
+  refuse(R"({"lambent": "light", "bands": 0, "coefficients": []})", {"\"bands\" is 0"});
+  refuse(R"({"lambent": "light", "bands": 11, "coefficients": []})", {"\"bands\" is 11"});
+  refuse(R"({"lambent": "light", "bands": 99999999999999999999, "coefficients": []})",
+         {"\"bands\""});
+  refuse(R"({"lambent": "light", "bands": 1})", {"\"coefficients\""});
+  refuse(R"({"lambent": "light", "bands": 2, "coefficients": [[1, 2, 3]]})", {"1 rows", "need 4"});
+  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 2]]})", {"row 0", "[r, g, b]"});
+  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 2, "x"]]})",
+         {"row 0, column 2", "\"x\"", "not a number"});
+  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, null, 1]]})",
+         {"row 0, column 1", "null"});
+  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, NaN, 1]]})", {"not JSON"});
+  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 1e39, 1]]})",
+         {"row 0, column 1", "32-bit"});
+  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 1e999, 1]]})", {"not JSON"});
+  refuse(std::string(2 << 20, ' '), {"too many"});
+  refuse(std::string(100000, '['), {"not JSON"});
+}
+
+TEST_F(LightFile, IsNotWrittenWithNumbersThatAreNone) {
+  sh::RgbCoefficients light(1);
+  light.channel(2)[0] = std::numeric_limits<float>::infinity();
+  EXPECT_FALSE(writeLight(light, path("light.json")));
+  EXPECT_FALSE(std::filesystem::exists(path("light.json")));
+  EXPECT_FALSE(writeLight(sh::RgbCoefficients(1), path("no/such/folder/light.json")));
+}
+
+}  // namespace
+}  // namespace lambent::light
