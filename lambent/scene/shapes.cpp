@@ -17,19 +17,21 @@ struct Vertex {
 };
 
 /// A grid of (columns+1)×(rows+1) vertices from a formula over (u, v) in [0, 1]², appended to
-/// `mesh`. The front is where ∂/∂v × ∂/∂u points. Triangles whose corners coincide (at poles) are
-/// left out by the caller's choice of `skipFirst` and `skipLast` row.
+/// `mesh`. The front is where ∂/∂v × ∂/∂u points. A first or last row that is a pole has one vertex
+/// for each column, with u in the middle of it, and one triangle instead of two.
 struct Grid {
   int columns, rows;
-  bool skipFirst = false, skipLast = false;
+  bool poleFirst = false, poleLast = false;
   Vec2 uvLower = Vec2(0, 0), uvUpper = Vec2(1, 1);
 };
 
 void appendGrid(Mesh& mesh, const Grid& grid, const std::function<Vertex(double, double)>& f) {
-  const auto first = std::uint32_t(mesh.positions.size());
+  std::vector<std::uint32_t> starts;
   for (int row = 0; row <= grid.rows; ++row) {
-    for (int column = 0; column <= grid.columns; ++column) {
-      const double u = double(column) / grid.columns, v = double(row) / grid.rows;
+    const bool pole = (grid.poleFirst && row == 0) || (grid.poleLast && row == grid.rows);
+    starts.push_back(std::uint32_t(mesh.positions.size()));
+    for (int column = 0; column < grid.columns + (pole ? 0 : 1); ++column) {
+      const double u = (column + (pole ? 0.5 : 0.0)) / grid.columns, v = double(row) / grid.rows;
       const Vertex vertex = f(u, v);
       mesh.positions.push_back(vertex.position);
       mesh.normals.push_back(vertex.normal);
@@ -37,13 +39,18 @@ void appendGrid(Mesh& mesh, const Grid& grid, const std::function<Vertex(double,
       mesh.uvs.push_back(grid.uvLower + t.cwiseProduct(grid.uvUpper - grid.uvLower));
     }
   }
-  const auto stride = std::uint32_t(grid.columns + 1);
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      const std::uint32_t a = first + row * stride + column, b = a + 1;
-      const std::uint32_t c = a + stride, d = c + 1;
-      if (!(grid.skipLast && row == grid.rows - 1)) mesh.triangles.push_back({a, c, d});
-      if (!(grid.skipFirst && row == 0)) mesh.triangles.push_back({a, d, b});
+      const std::uint32_t a = starts[row] + column, b = a + 1;
+      const std::uint32_t c = starts[row + 1] + column, d = c + 1;
+      if (grid.poleFirst && row == 0) {
+        mesh.triangles.push_back({a, c, d});
+      } else if (grid.poleLast && row == grid.rows - 1) {
+        mesh.triangles.push_back({a, c, b});
+      } else {
+        mesh.triangles.push_back({a, c, d});
+        mesh.triangles.push_back({a, d, b});
+      }
     }
   }
 }

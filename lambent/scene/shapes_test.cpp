@@ -1,5 +1,6 @@
 #include "lambent/scene/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -21,17 +22,22 @@ double area(const Mesh& mesh) {
   return sum;
 }
 
-/// Unit normals on the front of every triangle, no triangle without area, indices in range.
+/// Unit normals on the front of every triangle, no triangle without area, no vertex without one.
 void expectSound(const Mesh& mesh) {
   ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
   for (const Vec3& n : mesh.normals) ASSERT_NEAR(n.norm(), 1.0f, 1e-5f);
+  std::vector<bool> used(mesh.positions.size());
   for (const Triangle& t : mesh.triangles) {
-    for (std::uint32_t i : t) ASSERT_LT(i, mesh.positions.size());
+    for (std::uint32_t i : t) {
+      ASSERT_LT(i, mesh.positions.size());
+      used[i] = true;
+    }
     const Vec3 a = mesh.positions[t[0]];
     const Vec3 cross = (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
     ASSERT_GT(cross.norm(), 0.0f) << mesh.name;
     for (std::uint32_t i : t) ASSERT_GT(cross.normalized().dot(mesh.normals[i]), 0.0f) << mesh.name;
   }
+  EXPECT_EQ(std::count(used.begin(), used.end(), false), 0) << mesh.name;
 }
 
 void expectClosed(const Mesh& mesh, double volume, double tolerance) {

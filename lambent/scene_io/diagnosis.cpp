@@ -1,0 +1,279 @@
+#include "lambent/scene_io/diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "lambent/scene/diagnose.h"
+#include "lambent/scene/shapes.h"
+
+namespace lambent::scene_io {
+namespace {
+
+using scene::Mesh;
+using scene::Triangle;
+
+bool isDegenerate(const Mesh& mesh, const Triangle& t) {
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
+  const Vec3d a = mesh.positions[t[0]].cast<double>(), b = mesh.positions[t[1]].cast<double>(),
+              c = mesh.positions[t[2]].cast<double>();
+  const Vec3d ab = b - a, ac = c - a;
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  return !(ab.cross(ac).norm() > 1e-6 * longest);
+}
+
+template <class T>
+void compact(std::vector<T>& values, const std::vector<std::uint32_t>& oldFromNew) {
+  if (values.empty()) return;
+  std::vector<T> kept(oldFromNew.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = values[oldFromNew[i]];
+  values = std::move(kept);
+}
+
+/// Drops vertices that no triangle uses. Returns the old index of every vertex that is left.
+std::vector<std::uint32_t> dropUnused(Mesh& mesh) {
+  constexpr std::uint32_t kUnused = 0xffffffffu;
+  std::vector<std::uint32_t> newFromOld(mesh.positions.size(), kUnused);
+  for (const Triangle& t : mesh.triangles) {
+    for (std::uint32_t v : t) newFromOld[v] = 0;
+  }
+  std::vector<std::uint32_t> oldFromNew;
+  oldFromNew.reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < newFromOld.size(); ++i) {
+    if (newFromOld[i] == kUnused) continue;
+    newFromOld[i] = std::uint32_t(oldFromNew.size());
+    oldFromNew.push_back(std::uint32_t(i));
+  }
+  if (oldFromNew.size() == newFromOld.size()) return oldFromNew;
+  compact(mesh.positions, oldFromNew);
+  compact(mesh.normals, oldFromNew);
+  compact(mesh.uvs, oldFromNew);
+  compact(mesh.colors, oldFromNew);
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = newFromOld[v];
+  }
+  return oldFromNew;
+}
+
+bool isUsable(const Vec3& n) {
+  const float length = n.norm();
+  return std::isfinite(length) && length > 1e-12f;
+}
+
+void reverseWinding(Mesh& mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+double signedVolume(const Mesh& mesh) {
+  const Vec3d origin = mesh.positions[0].cast<double>();
+  double volume = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3d a = mesh.positions[t[0]].cast<double>() - origin;
+    const Vec3d b = mesh.positions[t[1]].cast<double>() - origin;
+    const Vec3d c = mesh.positions[t[2]].cast<double>() - origin;
+    volume += a.dot(b.cross(c)) / 6.0;
+  }
+  return volume;
+}
+
+/// Of every vertex, how well its normal agrees with the triangles around it: the mean of the cosine
+/// between them, weighted by area, in [−1, 1].
+std::vector<float> agreement(const Mesh& mesh, const std::vector<Vec3>& normals) {
+  std::vector<float> sums(normals.size(), 0.0f), areas(normals.size(), 0.0f);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.positions[t[0]];
+    const Vec3 cross = (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
+    const float area = cross.norm();
+    for (std::uint32_t v : t) {
+      sums[v] += cross.dot(normals[v]);
+      areas[v] += area;
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (areas[i] > 0.0f) sums[i] /= areas[i];
+  }
+  return sums;
+}
+
+/// Below this a normal stands on the wrong side. Not 0: where two sides of a sheet share their
+/// vertices the mean cancels, and its sign is noise.
+constexpr float kOpposite = -0.01f;
+
+std::size_t countOpposite(const std::vector<float>& agreements) {
+  return std::size_t(
+      std::count_if(agreements.begin(), agreements.end(), [](float a) { return a < kOpposite; }));
+}
+
+void makeNormals(Mesh& mesh, std::span<const std::uint32_t> groups, const std::string& place,
+                 Diagnosis& diagnosis) {
+  if (const std::size_t without = scene::computeNormals(mesh, groups); without > 0) {
+    diagnosis.add(Severity::Warning, "no-side", without,
+                  "vertices have triangles on both sides that cancel out; their made normal is +Y",
+                  place);
+  }
+}
+
+void finishNormals(Mesh& mesh, const FinishOptions& options, std::span<const std::uint32_t> groups,
+                   const std::string& place, Diagnosis& diagnosis) {
+  const std::size_t count = mesh.positions.size();
+  if (mesh.normals.size() != count) {
+    makeNormals(mesh, groups, place, diagnosis);
+    diagnosis.add(Severity::Note, "normals-made", count,
+                  "vertices had no normals; angle-weighted ones were made", place);
+    return;
+  }
+  std::vector<Vec3> own = std::move(mesh.normals);
+  std::size_t useless = 0;
+  for (Vec3& n : own) {
+    if (!isUsable(n)) {
+      n = Vec3::Zero();
+      ++useless;
+      continue;
+    }
+    // A unit normal stays as it is, to the bit, so that what Lambent wrote is what it reads.
+    const float squared = n.squaredNorm();
+    if (std::abs(squared - 1.0f) > 1e-6f) n = n.stableNormalized();
+  }
+  std::vector<float> agreements = agreement(mesh, own);
+  std::size_t opposite = countOpposite(agreements);
+  const bool nearlyAll = opposite > 0 && double(opposite) >= 0.95 * double(count - useless);
+  if (nearlyAll && (options.front == Front::Normals ||
+                    (signedVolume(mesh) < 0.0 && scene::topology(mesh).insideOut()))) {
+    reverseWinding(mesh);
+    for (float& a : agreements) a = -a;
+    opposite = countOpposite(agreements);
+    diagnosis.add(Severity::Warning, "winding-reversed", mesh.triangles.size(),
+                  "triangles were wound against their normals; the winding was reversed", place);
+  }
+  if (opposite > 0) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (agreements[i] < kOpposite) own[i] = -own[i];
+    }
+    diagnosis.add(Severity::Warning, "normals-flipped", opposite,
+                  "normals pointed to the back of their triangles and were flipped to the front",
+                  place);
+  }
+  if (useless > 0) {
+    makeNormals(mesh, groups, place, diagnosis);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (own[i].isZero(0.0f)) own[i] = mesh.normals[i];
+    }
+    diagnosis.add(Severity::Warning, "zero-normals", useless,
+                  "normals were zero or not finite; angle-weighted ones were made in their place",
+                  place);
+  }
+  mesh.normals = std::move(own);
+}
+
+void finishAttributes(Mesh& mesh, const std::string& place, Diagnosis& diagnosis) {
+  std::size_t badUvs = 0, badColors = 0;
+  for (Vec2& uv : mesh.uvs) {
+    if (!uv.allFinite()) uv = Vec2::Zero(), ++badUvs;
+  }
+  for (Rgb& color : mesh.colors) {
+    const bool finite = color.isFinite().all();
+    if (!finite || color.minCoeff() < 0.0f || color.maxCoeff() > 1.0f) ++badColors;
+    color = finite ? Rgb(color.max(0.0f).min(1.0f)) : Rgb(Rgb::Ones());
+  }
+  if (badUvs > 0) {
+    diagnosis.add(Severity::Warning, "uvs-not-finite", badUvs,
+                  "texture coordinates were not finite and are (0, 0) now", place);
+  }
+  if (badColors > 0) {
+    diagnosis.add(Severity::Warning, "colors-clamped", badColors,
+                  "vertex colours were outside 0 to 1 and were clamped", place);
+  }
+}
+
+}  // namespace
+
+void Diagnosis::add(Severity severity, const std::string& code, std::uint64_t count,
+                    const std::string& what, const std::string& place) {
+  const auto [entry, isNew] = entries_.try_emplace(code, Entry{severity, count, what, place});
+  if (!isNew) entry->second.count += count;
+}
+
+Findings Diagnosis::findings() const {
+  Findings findings;
+  for (const auto& [code, entry] : entries_) {
+    std::string message = std::to_string(entry.count) + " " + entry.what;
+    if (!entry.place.empty()) message += " (first: " + entry.place + ")";
+    findings.push_back({entry.severity, code, std::move(message), entry.count});
+  }
+  return findings;
+}
+
+Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& file,
+                  const std::string& place, Diagnosis& diagnosis, bool* kept) {
+  if (kept != nullptr) *kept = true;
+  const std::size_t triangles = mesh.triangles.size();
+  const auto badVertex = [&](std::size_t vertex, const char* what) {
+    return report::badInput(file + ": " + place + ": vertex " + std::to_string(vertex) + what);
+  };
+  const auto checkPosition = [&](std::size_t vertex) -> Status {
+    const Vec3& p = mesh.positions[vertex];
+    if (!p.allFinite()) {
+      return badVertex(vertex,
+                       " has a position that is not a finite number; repair the mesh in a "
+                       "modelling program");
+    }
+    // Beyond this the squares that normals and areas need leave the range of float.
+    if (p.cwiseAbs().maxCoeff() > 1e9f) {
+      return badVertex(vertex, " lies more than 10⁹ m from the origin; scale the mesh down");
+    }
+    return Status::ok();
+  };
+  // Of scans with a hole, unused vertices are often NaN: they matter only if they stay.
+  if (options.keepAllVertices) {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      if (Status status = checkPosition(v); !status) return status;
+    }
+  } else {
+    for (const Triangle& t : mesh.triangles) {
+      for (std::uint32_t v : t) {
+        if (Status status = checkPosition(v); !status) return status;
+      }
+    }
+  }
+  std::vector<std::uint32_t> oldFromNew;
+  if (!options.keepAllVertices) {
+    std::size_t first = triangles;
+    for (std::size_t i = 0; i < triangles && first == triangles; ++i) {
+      if (isDegenerate(mesh, mesh.triangles[i])) first = i;
+    }
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return isDegenerate(mesh, t); });
+    if (const std::size_t gone = triangles - mesh.triangles.size(); gone > 0) {
+      diagnosis.add(Severity::Warning, "degenerate-triangles", gone,
+                    "degenerate triangles (without area) were kept out",
+                    place + ", triangle " + std::to_string(first));
+      if (kept != nullptr) *kept = false;
+    }
+    const std::size_t vertices = mesh.positions.size();
+    oldFromNew = dropUnused(mesh);
+    if (const std::size_t gone = vertices - mesh.positions.size(); gone > 0) {
+      diagnosis.add(Severity::Note, "unused-vertices", gone,
+                    "vertices belong to no triangle and were dropped", place);
+      if (kept != nullptr) *kept = false;
+    }
+  }
+  if (mesh.triangles.empty()) return Status::ok();
+
+  std::vector<std::uint32_t> groups;
+  if (!options.groups.empty()) {
+    groups.assign(options.groups.begin(), options.groups.end());
+    if (!options.keepAllVertices) compact(groups, oldFromNew);
+  }
+  finishNormals(mesh, options, groups, place, diagnosis);
+  finishAttributes(mesh, place, diagnosis);
+  if (signedVolume(mesh) < 0.0 && scene::topology(mesh).insideOut()) {
+    diagnosis.add(Severity::Warning, "inside-out", 1,
+                  "closed meshes have their fronts inside: seen from outside they will be black; "
+                  "right for a room seen from within, otherwise flip the normals in a modelling "
+                  "program",
+                  place);
+  }
+  return Status::ok();
+}
+
+}  // namespace lambent::scene_io

@@ -1,0 +1,173 @@
+#include "lambent/scene_io/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lambent/scene_io/gltf_json.h"
+#include "lambent/scene_io/gltf_material.h"
+#include "lambent/scene_io/image_codec.h"
+#include "lambent/scene_io/uri.h"
+
+namespace lambent::scene_io {
+namespace {
+
+using nlohmann::json;
+
+scene::Wrap wrapOf(std::optional<std::int64_t> code) {
+  if (code == 33071) return scene::Wrap::ClampToEdge;
+  if (code == 33648) return scene::Wrap::MirroredRepeat;
+  return scene::Wrap::Repeat;
+}
+
+TextureUse textureUseOf(const json* info) {
+  TextureUse use;
+  const json* transform = find(find(info, "extensions"), "KHR_texture_transform");
+  const auto set = integer(transform, "texCoord");
+  use.texCoord =
+      int(std::clamp<std::int64_t>(set ? *set : integer(info, "texCoord").value_or(0), 0, 1024));
+  if (const auto offset = numbers(transform, "offset", 2)) {
+    use.offset = Vec2(float((*offset)[0]), float((*offset)[1]));
+  }
+  if (const auto scale = numbers(transform, "scale", 2)) {
+    use.scale = Vec2(float((*scale)[0]), float((*scale)[1]));
+  }
+  use.rotation = float(number(transform, "rotation", 0.0));
+  return use;
+}
+
+}  // namespace
+
+Vec2 TextureUse::apply(const Vec2& uv) const {
+  const Vec2 scaled = scale.cwiseProduct(uv);
+  if (rotation == 0.0f) return offset + scaled;
+  // Counter-clockwise in an image whose v runs downwards: the extension's own matrix.
+  const float c = std::cos(rotation), s = std::sin(rotation);
+  return offset + Vec2(c * scaled.x() + s * scaled.y(), -s * scaled.x() + c * scaled.y());
+}
+
+GltfMaterials::GltfMaterials(const GltfFile& file, scene::Scene& scene, Diagnosis& diagnosis)
+    : file_(file), scene_(scene), diagnosis_(diagnosis) {
+  const json* materials = find(file.json(), "materials");
+  for (std::size_t i = 0; i < arraySize(materials); ++i) readMaterial((*materials)[i], int(i));
+}
+
+Result<int> GltfMaterials::indexOf(const json& primitive, const std::string& place) {
+  if (find(primitive, "material") != nullptr) {
+    const std::int64_t index = integer(primitive, "material").value_or(-1);
+    if (element(file_.json(), "materials", index) == nullptr) {
+      return report::badInput(file_.path().string() + ": " + place + " has material " +
+                              std::to_string(index) + ", which does not exist");
+    }
+    return int(index);
+  }
+  const bool colored = integer(find(primitive, "attributes"), "COLOR_0").has_value();
+  const auto [entry, isNew] = defaults_.try_emplace(colored, int(scene_.materials.size()));
+  if (isNew) {
+    scene::Material material;
+    if (colored) material.diffuse = Rgb::Ones();
+    scene_.materials.push_back(material);
+    diagnosis_.add(Severity::Note, "no-material", 1,
+                   colored ? "default material was used: white diffuse under vertex colours"
+                           : "default material was used: diffuse grey of 80%",
+                   place);
+  }
+  return entry->second;
+}
+
+TextureUse GltfMaterials::textureUse(int material) const {
+  const auto it = uses_.find(material);
+  return it == uses_.end() ? TextureUse() : it->second;
+}
+
+void GltfMaterials::readMaterial(const json& object, int index) {
+  scene::Material material;
+  material.name = text(&object, "name");
+  material.doubleSided = flag(&object, "doubleSided");
+  const std::string place = "material " + std::to_string(index) +
+                            (material.name.empty() ? "" : " \"" + material.name + "\"");
+  const json* pbr = find(object, "pbrMetallicRoughness");
+  MetallicRoughness values;
+  if (const auto factor = numbers(pbr, "baseColorFactor", 3)) {
+    values.baseColor = Rgb(float((*factor)[0]), float((*factor)[1]), float((*factor)[2]));
+  }
+  values.metallic = number(pbr, "metallicFactor", 1.0);
+  values.roughness = number(pbr, "roughnessFactor", 1.0);
+  if (const json* info = find(pbr, "metallicRoughnessTexture")) {
+    values.metallic *= meanOfChannel(info, 2);
+    values.roughness *= meanOfChannel(info, 1);
+    diagnosis_.add(Severity::Note, "mean-metallic-roughness", 1,
+                   "metallic-roughness textures were replaced by their mean", place);
+  }
+  if (find(find(object, "extensions"), "KHR_materials_unlit") != nullptr && pbr == nullptr) {
+    values.metallic = 0.0;
+  }
+  if (!applyExtras(object, values, material)) applyMetallicRoughness(values, material);
+
+  if (const json* info = find(pbr, "baseColorTexture")) {
+    uses_[index] = textureUseOf(info);
+    material.baseColorTexture = readTexture(integer(info, "index").value_or(-1));
+  }
+  if (find(object, "normalTexture") != nullptr) {
+    diagnosis_.add(Severity::Note, "normal-map-ignored", 1,
+                   "normal maps are ignored: transfer is baked on the mesh itself", place);
+  }
+  if (const auto emission = rgb(&object, "emissiveFactor"); emission && emission->maxCoeff() > 0) {
+    diagnosis_.add(Severity::Warning, "emission-ignored", 1,
+                   "materials emit light, which is ignored: Lambent bakes distant light", place);
+  }
+  if (const std::string mode = text(&object, "alphaMode"); mode == "BLEND" || mode == "MASK") {
+    diagnosis_.add(Severity::Warning, "alpha-ignored", 1,
+                   "materials are (partly) transparent and are taken as opaque", place);
+  }
+  scene_.materials.push_back(std::move(material));
+}
+
+Result<scene::Texture> GltfMaterials::readImage(std::int64_t index) const {
+  const std::string place = file_.path().string() + ": image " + std::to_string(index);
+  const json* object = element(file_.json(), "images", index);
+  if (object == nullptr) return report::badInput(place + " does not exist");
+  Result<scene::Texture> texture = report::badInput(place + " has neither a uri nor bytes");
+  if (const auto view = integer(object, "bufferView")) {
+    const auto bytes = file_.bufferViewBytes(*view);
+    if (!bytes) return bytes.error();
+    texture = decodeImage(*bytes, place);
+  } else if (const std::string uri = text(object, "uri"); !uri.empty()) {
+    const auto bytes = readUri(uri, file_.path(), "image " + std::to_string(index));
+    if (!bytes) return bytes.error();
+    texture = decodeImage(*bytes, place);
+  }
+  if (texture) texture->name = text(object, "name");
+  return texture;
+}
+
+int GltfMaterials::readTexture(std::int64_t index) {
+  const auto [entry, isNew] = textures_.try_emplace(index, -1);
+  if (!isNew) return entry->second;
+  const json* object = element(file_.json(), "textures", index);
+  Result<scene::Texture> texture = readImage(integer(object, "source").value_or(-1));
+  if (!texture) {
+    // A lost picture spoils the colours, not the transfer of light: say so and go on.
+    diagnosis_.add(Severity::Warning, "texture-unreadable", 1,
+                   "base-colour textures could not be read; the base-colour factor stands alone",
+                   texture.error().message);
+    return -1;
+  }
+  const json* sampler = element(file_.json(), "samplers", integer(object, "sampler").value_or(-1));
+  texture->wrapU = wrapOf(integer(sampler, "wrapS"));
+  texture->wrapV = wrapOf(integer(sampler, "wrapT"));
+  entry->second = int(scene_.textures.size());
+  scene_.textures.push_back(std::move(*texture));
+  return entry->second;
+}
+
+double GltfMaterials::meanOfChannel(const json* textureInfo, int channel) {
+  const json* object =
+      element(file_.json(), "textures", integer(textureInfo, "index").value_or(-1));
+  const Result<scene::Texture> texture = readImage(integer(object, "source").value_or(-1));
+  if (!texture || texture->rgba.empty()) return channel == 2 ? 0.0 : 1.0;
+  double sum = 0.0;
+  for (std::size_t i = channel; i < texture->rgba.size(); i += 4) sum += texture->rgba[i];
+  return sum / (255.0 * double(texture->rgba.size() / 4));
+}
+
+}  // namespace lambent::scene_io

@@ -1,0 +1,49 @@
+// The materials and base-colour textures of a glTF file, read as primitives ask for them.
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/gltf_read.h"
+
+namespace lambent::scene_io {
+
+/// How a material looks up its base-colour texture: the UV set, and KHR_texture_transform
+/// (uv' = translation · rotation · scale · uv), which the loader bakes into the UVs.
+struct TextureUse {
+  int texCoord = 0;
+  Vec2 offset = Vec2::Zero(), scale = Vec2::Ones();
+  float rotation = 0.0f;
+  Vec2 apply(const Vec2& uv) const;
+};
+
+/// Appends to scene.materials and scene.textures. Scene material i is glTF material i, so that what
+/// was written in a sequence is read in it; primitives without a material share one more: grey
+/// diffuse, or white where they bring vertex colours. (The specification's default, a white rough
+/// metal, is nobody's wish.)
+class GltfMaterials {
+ public:
+  GltfMaterials(const GltfFile& file, scene::Scene& scene, Diagnosis& diagnosis);
+
+  /// The scene material of a primitive.
+  Result<int> indexOf(const nlohmann::json& primitive, const std::string& place);
+  TextureUse textureUse(int material) const;
+
+ private:
+  void readMaterial(const nlohmann::json& object, int index);
+  int readTexture(std::int64_t texture);
+  Result<scene::Texture> readImage(std::int64_t image) const;
+  /// Mean of a channel of a texture, for factors that Lambent keeps per material: 1 if unreadable.
+  double meanOfChannel(const nlohmann::json* textureInfo, int channel);
+
+  const GltfFile& file_;
+  scene::Scene& scene_;
+  Diagnosis& diagnosis_;
+  std::map<int, TextureUse> uses_;
+  std::map<std::int64_t, int> textures_;  ///< scene texture by glTF texture
+  std::map<bool, int> defaults_;          ///< scene material by "has vertex colours"
+};
+
+}  // namespace lambent::scene_io

@@ -1,0 +1,275 @@
+#include "lambent/scene_io/gltf_write.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "lambent/file/atomic_file.h"
+#include "lambent/scene_io/gltf_material.h"
+#include "lambent/scene_io/image_codec.h"
+
+namespace lambent::scene_io {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
+// Both serve an assertion only.
+[[maybe_unused]] int componentSize(Component component) {
+  switch (component) {
+    case Component::Byte:
+    case Component::UnsignedByte:
+      return 1;
+    case Component::Short:
+    case Component::UnsignedShort:
+      return 2;
+    default:
+      return 4;
+  }
+}
+
+[[maybe_unused]] int componentCount(std::string_view type) {
+  if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
+  if (type == "VEC3") return 3;
+  assert(type == "VEC4");
+  return 4;
+}
+
+template <class T>
+std::span<const std::byte> bytesOf(const std::vector<T>& values) {
+  return std::as_bytes(std::span<const T>(values));
+}
+
+int wrapCode(scene::Wrap wrap) {
+  switch (wrap) {
+    case scene::Wrap::ClampToEdge:
+      return 33071;
+    case scene::Wrap::MirroredRepeat:
+      return 33648;
+    case scene::Wrap::Repeat:
+      break;
+  }
+  return 10497;
+}
+
+/// Appends to an array member and returns the new element's index.
+int append(Json& document, const char* key, Json value) {
+  Json& array = document[key];
+  array.push_back(std::move(value));
+  return int(array.size() - 1);
+}
+
+void setName(Json& object, const std::string& name) {
+  if (!name.empty()) object["name"] = name;
+}
+
+}  // namespace
+
+struct GltfBuilder::Impl {
+  Json document;
+  std::vector<std::byte> binary;
+
+  void addMaterial(const scene::Material& material);
+  Json camera(const scene::Camera& camera, float diagonal);
+};
+
+void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
+  const MetallicRoughness pbr = metallicRoughnessOf(material);
+  Json metallicRoughness = {
+      {"baseColorFactor", {pbr.baseColor.x(), pbr.baseColor.y(), pbr.baseColor.z(), 1.0}},
+      {"metallicFactor", pbr.metallic},
+      {"roughnessFactor", pbr.roughness}};
+  if (material.baseColorTexture >= 0) {
+    metallicRoughness["baseColorTexture"] = {{"index", material.baseColorTexture}};
+  }
+  Json object = {{"pbrMetallicRoughness", std::move(metallicRoughness)},
+                 {"extras", extrasOf(material)}};
+  if (material.doubleSided) object["doubleSided"] = true;
+  setName(object, material.name);
+  append(document, "materials", std::move(object));
+}
+
+Json GltfBuilder::Impl::camera(const scene::Camera& camera, float diagonal) {
+  const float zNear = std::max(1e-3f * diagonal, 1e-6f), zFar = 10.0f * std::max(diagonal, 1e-3f);
+  Json object;
+  if (camera.orthographicHalfHeight) {
+    const float half = *camera.orthographicHalfHeight;
+    object = {{"type", "orthographic"},
+              {"orthographic", {{"xmag", half}, {"ymag", half}, {"znear", zNear}, {"zfar", zFar}}}};
+  } else {
+    object = {{"type", "perspective"},
+              {"perspective", {{"yfov", camera.verticalFov}, {"znear", zNear}}}};
+  }
+  setName(object, camera.name);
+  return object;
+}
+
+GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Impl>()) {
+  Json& document = impl_->document;
+  document["asset"] = {{"version", "2.0"}, {"generator", "Lambent"}};
+  document["scene"] = 0;
+  document["scenes"] = Json::array({Json::object()});
+
+  for (const scene::Texture& texture : scene.textures) {
+    std::vector<std::uint8_t> png;
+    const bool carried = !texture.encoded.empty() &&
+                         (texture.mimeType == "image/png" || texture.mimeType == "image/jpeg");
+    if (!carried) png = encodePng(texture.width, texture.height, texture.rgba);
+    Json image = {{"bufferView", addBufferView(bytesOf(carried ? texture.encoded : png))},
+                  {"mimeType", carried ? texture.mimeType : "image/png"}};
+    setName(image, texture.name);
+    const int source = append(document, "images", std::move(image));
+    const int sampler = append(document, "samplers",
+                               {{"magFilter", 9729},
+                                {"minFilter", 9987},
+                                {"wrapS", wrapCode(texture.wrapU)},
+                                {"wrapT", wrapCode(texture.wrapV)}});
+    append(document, "textures", {{"source", source}, {"sampler", sampler}});
+  }
+  for (const scene::Material& material : scene.materials) impl_->addMaterial(material);
+
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const scene::Mesh& mesh = scene.meshes[i];
+    assert(!mesh.positions.empty() && !mesh.triangles.empty());
+    const std::size_t count = mesh.positions.size();
+    Json attributes;
+    const int positions =
+        addAccessor(bytesOf(mesh.positions), Component::Float, "VEC3", count, false, kArrayBuffer);
+    scene::Box box;
+    for (const Vec3& p : mesh.positions) box.extend(p);
+    Json& accessor = document["accessors"][positions];
+    accessor["min"] = {box.lower.x(), box.lower.y(), box.lower.z()};
+    accessor["max"] = {box.upper.x(), box.upper.y(), box.upper.z()};
+    attributes["POSITION"] = positions;
+    const auto attribute = [&](const char* name, std::span<const std::byte> bytes,
+                               std::string_view type) {
+      if (bytes.empty()) return;
+      attributes[name] = addAccessor(bytes, Component::Float, type, count, false, kArrayBuffer);
+    };
+    attribute("NORMAL", bytesOf(mesh.normals), "VEC3");
+    attribute("TEXCOORD_0", bytesOf(mesh.uvs), "VEC2");
+    attribute("COLOR_0", bytesOf(mesh.colors), "VEC3");
+
+    int indices = 0;
+    const std::size_t indexCount = 3 * mesh.triangles.size();
+    if (count < 65535) {  // 65535 itself means "restart" to some devices
+      std::vector<std::uint16_t> small;
+      small.reserve(indexCount);
+      for (const scene::Triangle& t : mesh.triangles) {
+        for (std::uint32_t v : t) small.push_back(std::uint16_t(v));
+      }
+      indices = addAccessor(bytesOf(small), Component::UnsignedShort, "SCALAR", indexCount, false,
+                            kElementArrayBuffer);
+    } else {
+      indices = addAccessor(bytesOf(mesh.triangles), Component::UnsignedInt, "SCALAR", indexCount,
+                            false, kElementArrayBuffer);
+    }
+    Json primitive = {{"attributes", std::move(attributes)}, {"indices", indices}, {"mode", 4}};
+    if (mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size()) {
+      primitive["material"] = mesh.material;
+    }
+    Json meshJson = {{"primitives", Json::array({std::move(primitive)})}};
+    setName(meshJson, mesh.name);
+    append(document, "meshes", std::move(meshJson));
+    Json node = {{"mesh", i}};
+    setName(node, mesh.name);
+    document["scenes"][0]["nodes"].push_back(append(document, "nodes", std::move(node)));
+  }
+
+  const float diagonal = scene.cameras.empty() ? 0.0f : bounds(scene).diagonal();
+  for (const scene::Camera& camera : scene.cameras) {
+    Json node = {{"camera", append(document, "cameras", impl_->camera(camera, diagonal))}};
+    Json matrix = Json::array();
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) matrix.push_back(camera.worldFromCamera(row, column));
+    }
+    if (!camera.worldFromCamera.isIdentity(0.0f)) node["matrix"] = std::move(matrix);
+    setName(node, camera.name);
+    document["scenes"][0]["nodes"].push_back(append(document, "nodes", std::move(node)));
+  }
+}
+
+GltfBuilder::GltfBuilder(GltfBuilder&&) noexcept = default;
+GltfBuilder::~GltfBuilder() = default;
+
+nlohmann::json& GltfBuilder::json() {
+  return impl_->document;
+}
+
+int GltfBuilder::addBufferView(std::span<const std::byte> bytes, std::optional<int> target) {
+  assert(!bytes.empty());
+  std::vector<std::byte>& binary = impl_->binary;
+  binary.resize((binary.size() + 3) / 4 * 4);
+  Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+  if (target) view["target"] = *target;
+  binary.insert(binary.end(), bytes.begin(), bytes.end());
+  return append(impl_->document, "bufferViews", std::move(view));
+}
+
+int GltfBuilder::addAccessor(std::span<const std::byte> bytes, Component component,
+                             std::string_view type, std::size_t count, bool normalized,
+                             std::optional<int> target) {
+  assert(bytes.size() == count * std::size_t(componentSize(component) * componentCount(type)));
+  Json accessor = {{"bufferView", addBufferView(bytes, target)},
+                   {"componentType", int(component)},
+                   {"type", type},
+                   {"count", count}};
+  if (normalized) accessor["normalized"] = true;
+  return append(impl_->document, "accessors", std::move(accessor));
+}
+
+void GltfBuilder::useExtension(std::string_view name, bool required) {
+  const auto addTo = [&](const char* key) {
+    Json& list = impl_->document[key];
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+  };
+  addTo("extensionsUsed");
+  if (required) addTo("extensionsRequired");
+}
+
+Result<std::vector<std::byte>> GltfBuilder::glb() const {
+  Json document = impl_->document;
+  const std::vector<std::byte>& binary = impl_->binary;
+  if (!binary.empty()) {
+    document["buffers"] = Json::array({{{"byteLength", binary.size()}}});
+  }
+  // Names come from files and need not be UTF-8: what is not is replaced.
+  std::string header = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  header.resize((header.size() + 3) / 4 * 4, ' ');
+  const std::size_t padded = (binary.size() + 3) / 4 * 4;
+  const std::uint64_t total =
+      12 + 8 + header.size() + (binary.empty() ? 0 : 8 + std::uint64_t(padded));
+  if (total > 0xffffffffu) {
+    return report::failed("the .glb would be " + std::to_string(total >> 20) +
+                          " MiB, and the format ends at 4 GiB; use fewer bands or 16-bit numbers");
+  }
+  std::vector<std::byte> file;
+  file.reserve(total);
+  const auto word = [&](std::uint64_t value) {
+    for (int i = 0; i < 4; ++i) file.push_back(std::byte(value >> (8 * i) & 0xff));
+  };
+  const auto raw = [&](const void* data, std::size_t size) {
+    const auto* first = static_cast<const std::byte*>(data);
+    file.insert(file.end(), first, first + size);
+  };
+  word(0x46546c67), word(2), word(total);
+  word(header.size()), word(0x4e4f534a);
+  raw(header.data(), header.size());
+  if (!binary.empty()) {
+    word(padded), word(0x004e4942);
+    raw(binary.data(), binary.size());
+    file.resize(total);
+  }
+  return file;
+}
+
+Status saveGlb(const scene::Scene& scene, const std::filesystem::path& path) {
+  Result<std::vector<std::byte>> bytes = GltfBuilder(scene).glb();
+  if (!bytes) return bytes.error();
+  return file::writeAtomically(path, *bytes);
+}
+
+}  // namespace lambent::scene_io
