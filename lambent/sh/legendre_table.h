@@ -5,11 +5,9 @@
 // but with the normalisation and, for m > 0, the √2 of the real basis:
 //   P_mm  = kDiagonal[m]
 //   P_lm  = kStep[l][m] z P_{l−1,m} − kBack[l][m] P_{l−2,m}
+//
+// This header includes nothing, since kernels compiled for several instruction sets include it.
 #pragma once
-
-#include <array>
-
-#include "lambent/math/types.h"
 
 namespace lambent::sh {
 
@@ -27,14 +25,14 @@ constexpr double squareRoot(double x) {
 }
 
 struct LegendreTable {
-  std::array<double, kTableBands> diagonal{};
-  std::array<std::array<double, kTableBands>, kTableBands> step{}, back{};
+  double diagonal[kTableBands] = {};
+  double step[kTableBands][kTableBands] = {}, back[kTableBands][kTableBands] = {};
 };
 
-constexpr LegendreTable makeLegendreTable() {
+consteval LegendreTable makeLegendreTable() {
   LegendreTable t;
-  t.diagonal[0] = squareRoot(1 / (4 * kPi));
-  double square = 1 / (4 * kPi);  // (2m+1)!! / (4π (2m)!!)
+  double square = 1 / (4 * 3.14159265358979323846);  // (2m+1)!! / (4π (2m)!!)
+  t.diagonal[0] = squareRoot(square);
   for (int m = 1; m < kTableBands; ++m) {
     square *= (2.0 * m + 1) / (2.0 * m);
     t.diagonal[m] = squareRoot(2 * square);

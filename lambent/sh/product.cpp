@@ -17,6 +17,7 @@
 
 #include "lambent/math/isa.h"
 #include "lambent/math/quadrature.h"
+#include "lambent/math/types.h"
 #include "lambent/sh/legendre_table.h"
 #include "lambent/sh/product_kernel.h"
 

@@ -160,18 +160,10 @@ void product(const float* rings, const float* a, const float* b, float* c) {
 }  // namespace
 
 ProductKernels productKernels() {
-  ProductKernels k{};
-  k.forBands[1] = product<1, productLanes(1)>;
-  k.forBands[2] = product<2, productLanes(2)>;
-  k.forBands[3] = product<3, productLanes(3)>;
-  k.forBands[4] = product<4, productLanes(4)>;
-  k.forBands[5] = product<5, productLanes(5)>;
-  k.forBands[6] = product<6, productLanes(6)>;
-  k.forBands[7] = product<7, productLanes(7)>;
-  k.forBands[8] = product<8, productLanes(8)>;
-  k.forBands[9] = product<9, productLanes(9)>;
-  k.forBands[10] = product<10, productLanes(10)>;
-  return k;
+  return {{nullptr, product<1, productLanes(1)>, product<2, productLanes(2)>,
+           product<3, productLanes(3)>, product<4, productLanes(4)>, product<5, productLanes(5)>,
+           product<6, productLanes(6)>, product<7, productLanes(7)>, product<8, productLanes(8)>,
+           product<9, productLanes(9)>, product<10, productLanes(10)>}};
 }
 
 }  // namespace lambent::sh::LAMBENT_ISA

@@ -1,12 +1,10 @@
-// The matrix of one band of a rotation from the band below it. Internal to this room.
+// The matrix of one band of a rotation from the band below it, and the mirror that swaps the axes y
+// and z as a table. Internal to this room.
 //
 // This work is based on:
 // - ivanic1996rotation: eq. 8.1 and Tables 1-2, with the correction of 1998 (Table 2, V for m < 0).
 //   R^l_mm' = u U + v V + w W; r is the 3×3 matrix over (y, z, x), which is band 1.
 #pragma once
-
-#include <cmath>
-#include <type_traits>
 
 #include "lambent/sh/legendre_table.h"
 
@@ -17,7 +15,7 @@ namespace lambent::sh {
 /// included.
 constexpr void rotationOfNextBand(int l, const double* band1, const double* below, double* out) {
   const auto root = [](double x) {
-    return std::is_constant_evaluated() ? squareRoot(x) : std::sqrt(x);
+    return __builtin_is_constant_evaluated() ? squareRoot(x) : __builtin_sqrt(x);
   };
   const auto r = [&](int i, int j) { return band1[(i + 1) * 3 + (j + 1)]; };
   const auto b = [&](int m, int n) { return below[(m + l - 1) * (2 * l - 1) + (n + l - 1)]; };
@@ -57,5 +55,26 @@ constexpr void rotationOfNextBand(int l, const double* band1, const double* belo
     }
   }
 }
+
+/// The mirror that swaps y and z, band by band: entry (m, n) of band l at
+/// band[l][(m + l)(2l + 1) + n + l]. It is symmetric, and its own inverse.
+struct SwapTable {
+  float band[10][19 * 19] = {};
+};
+
+consteval SwapTable makeSwapTable() {
+  const double band1[9] = {0, 1, 0, 1, 0, 0, 0, 0, 1};  // (y, z, x) → (z, y, x)
+  double below[19 * 19] = {}, block[19 * 19] = {1};
+  SwapTable table;
+  table.band[0][0] = 1;
+  for (int l = 1; l < 10; ++l) {
+    for (int i = 0; i < (2 * l - 1) * (2 * l - 1); ++i) below[i] = block[i];
+    rotationOfNextBand(l, band1, below, block);
+    for (int i = 0; i < (2 * l + 1) * (2 * l + 1); ++i) table.band[l][i] = float(block[i]);
+  }
+  return table;
+}
+
+inline constexpr SwapTable kSwap = makeSwapTable();
 
 }  // namespace lambent::sh
