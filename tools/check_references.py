@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""Every paper's key that sources, shaders and documents cite resolves in docs/references.bib.
+
+A key is written authorYEARword, as in sloan2002precomputed. Prints dead ones and exits with 1.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+KEY = re.compile(r"\b([a-z]+(?:19|20)\d\d[a-z]+)\b")
+PLACES = ["lambent", "apps", "shaders", "spec", "bench", "examples", "tests", "docs", "cmake"]
+SUFFIXES = {".h", ".cpp", ".glsl", ".md", ".py", ".cmake", ".txt"}
+
+
+def main() -> int:
+    bibliography = (ROOT / "docs/references.bib").read_text()
+    known = set(re.findall(r"^@\w+\{([^,\s]+),", bibliography, re.MULTILINE))
+    cited, dead = set(), []
+    for place in PLACES:
+        for path in sorted((ROOT / place).rglob("*")):
+            if path.suffix not in SUFFIXES or not path.is_file():
+                continue
+            for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+                for key in KEY.findall(line):
+                    cited.add(key)
+                    if key not in known:
+                        dead.append(f"{path.relative_to(ROOT)}:{number}: {key} is not in "
+                                    "docs/references.bib")
+    for problem in dead:
+        print(problem, file=sys.stderr)
+    if not dead:
+        print(f"{len(cited)} keys cited, all of them in docs/references.bib ({len(known)} entries)")
+    return 1 if dead else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
