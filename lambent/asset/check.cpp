@@ -1,0 +1,172 @@
+#include "lambent/asset/check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lambent/sh/coefficients.h"
+
+namespace lambent::asset {
+
+namespace {
+
+using encode::EncodedMesh;
+using encode::Encoding;
+using encode::Numbers;
+using transport::Layout;
+
+bool bandsInRange(int bands) {
+  return bands >= 1 && bands <= sh::kMaxBands;
+}
+bool channelsInRange(int channels) {
+  return channels == 1 || channels == 3;
+}
+std::uint64_t squared(int bands) {
+  return std::uint64_t(bands) * std::uint64_t(bands);
+}
+std::string text(std::uint64_t value) {
+  return std::to_string(value);
+}
+
+std::optional<std::string> faultOfVectors(const EncodedMesh& t) {
+  if (!bandsInRange(t.bands))
+    return "vectors: bands is " + std::to_string(t.bands) + ", not 1 to 10";
+  if (!channelsInRange(t.channels))
+    return "vectors: channels is " + std::to_string(t.channels) + ", not 1 or 3";
+  const std::uint64_t coefficients = squared(t.bands);
+  const std::uint64_t each = std::uint64_t(t.channels) * coefficients;
+  if (t.vectors.size() != t.receiverCount() * each)
+    return "vectors: " + text(t.vectors.size()) + " numbers where " + text(t.receiverCount()) +
+           " receivers × " + text(std::uint64_t(t.channels)) + " channels × " + text(coefficients) +
+           " coefficients need " + text(t.receiverCount() * each);
+  if (const auto at = firstNonFinite(t.vectors))
+    return "vectors: not a finite number at receiver " + text(*at / each) + ", channel " +
+           text(*at % each / coefficients) + ", coefficient " + text(*at % coefficients);
+  return std::nullopt;
+}
+
+std::optional<std::string> faultOfMatrices(const EncodedMesh& t) {
+  if (!bandsInRange(t.outBands) || !bandsInRange(t.inBands))
+    return "matrices: outBands is " + std::to_string(t.outBands) + " and inBands " +
+           std::to_string(t.inBands) + ", not 1 to 10";
+  if (!channelsInRange(t.matrixChannels))
+    return "matrices: channels is " + std::to_string(t.matrixChannels) + ", not 1 or 3";
+  const std::uint64_t rows = squared(t.outBands), columns = squared(t.inBands);
+  const std::uint64_t each = std::uint64_t(t.matrixChannels) * rows * columns;
+  if (t.matrices.size() != t.receiverCount() * each)
+    return "matrices: " + text(t.matrices.size()) + " numbers where " + text(t.receiverCount()) +
+           " receivers × " + text(std::uint64_t(t.matrixChannels)) + " channels × " + text(rows) +
+           " rows × " + text(columns) + " columns need " + text(t.receiverCount() * each);
+  if (const auto at = firstNonFinite(t.matrices))
+    return "matrices: not a finite number at receiver " + text(*at / each) + ", channel " +
+           text(*at % each / (rows * columns)) + ", row " + text(*at / columns % rows) +
+           ", column " + text(*at % columns);
+  if (!t.glossy.isFinite().all() || (t.glossy < 0.0f).any())
+    return "matrices: glossy must be three finite numbers, none below 0";
+  if (!std::isfinite(t.lobeExponent) || t.lobeExponent < 0.0f)
+    return "matrices: lobeExponent must be finite and not below 0";
+  return std::nullopt;
+}
+
+std::optional<std::string> faultOfGrid(const EncodedMesh& t, const scene::Mesh& mesh) {
+  if (t.width < 1 || t.height < 1 || t.width > kLargestGrid || t.height > kLargestGrid)
+    return "grid: " + std::to_string(t.width) + "×" + std::to_string(t.height) +
+           " texels, not 1 to " + std::to_string(kLargestGrid) + " each way";
+  const std::uint64_t texels = std::uint64_t(t.width) * std::uint64_t(t.height);
+  if (t.positions.size() != texels)
+    return "grid: " + text(t.positions.size()) + " positions for " + text(texels) + " texels";
+  if (t.normals.size() != texels)
+    return "grid: " + text(t.normals.size()) + " normals for " + text(texels) + " texels";
+  if (t.covered.size() != texels)
+    return "grid: " + text(t.covered.size()) + " coverage flags for " + text(texels) + " texels";
+  if (mesh.uvs.size() != mesh.positions.size())
+    return std::string("grid: the primitive has no TEXCOORD_0 to look texels up with");
+  if (const auto at = firstNonFinite(t.positions))
+    return "grid: not a finite position at texel " + text(*at);
+  if (const auto at = firstNonFinite(t.normals))
+    return "grid: not a finite normal at texel " + text(*at);
+  const auto odd = std::find_if(t.covered.begin(), t.covered.end(), [](auto c) { return c > 1; });
+  if (odd != t.covered.end())
+    return "grid: covered is " + std::to_string(*odd) + ", not 0 or 1, at texel " +
+           text(std::uint64_t(odd - t.covered.begin()));
+  return std::nullopt;
+}
+
+/// Vertex receivers are not stored: they are the primitive's vertices.
+std::optional<std::string> faultOfVertices(const EncodedMesh& t, const scene::Mesh& mesh) {
+  if (t.positions.size() != mesh.positions.size() || t.normals.size() != mesh.normals.size())
+    return text(t.receiverCount()) + " receivers for " + text(mesh.positions.size()) + " vertices";
+  for (std::size_t i = 0; i < t.positions.size(); ++i)
+    if (t.positions[i] != mesh.positions[i] || !t.normals[i].isApprox(mesh.normals[i], 1e-3f))
+      return "receiver " + text(i) + " does not stand at vertex " + text(i);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string meshLabel(const scene::Scene& scene, std::size_t mesh) {
+  const std::string& name = scene.meshes[mesh].name;
+  return "mesh " + std::to_string(mesh) + (name.empty() ? "" : " (\"" + name + "\")");
+}
+
+std::optional<std::size_t> firstNonFinite(const Numbers& numbers) {
+  if (numbers.encoding == Encoding::Float16) {
+    const auto at = std::find_if(numbers.half.begin(), numbers.half.end(),
+                                 [](std::uint16_t h) { return (h & 0x7c00u) == 0x7c00u; });
+    if (at == numbers.half.end()) return std::nullopt;
+    return std::size_t(at - numbers.half.begin());
+  }
+  const auto at = std::find_if(numbers.single.begin(), numbers.single.end(),
+                               [](float f) { return !std::isfinite(f); });
+  if (at == numbers.single.end()) return std::nullopt;
+  return std::size_t(at - numbers.single.begin());
+}
+
+std::optional<std::size_t> firstNonFinite(std::span<const Vec3> vectors) {
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    if (!vectors[i].allFinite()) return i;
+  return std::nullopt;
+}
+
+std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mesh& mesh,
+                                   int fieldBands) {
+  switch (transfer.layout) {
+    case Layout::None:
+      if (!transfer.vectors.empty() || !transfer.matrices.empty())
+        return std::string("transfer without receivers");
+      return std::nullopt;
+    case Layout::Vertices:
+      if (auto fault = faultOfVertices(transfer, mesh)) return fault;
+      break;
+    case Layout::Texels:
+      if (auto fault = faultOfGrid(transfer, mesh)) return fault;
+      break;
+  }
+  if (!transfer.vectors.empty())
+    if (auto fault = faultOfVectors(transfer)) return fault;
+  if (!transfer.matrices.empty())
+    if (auto fault = faultOfMatrices(transfer)) return fault;
+  const int needed = std::max(transfer.vectors.empty() ? 0 : transfer.bands,
+                              transfer.matrices.empty() ? 0 : transfer.inBands);
+  if (needed > fieldBands)
+    return "takes light of " + std::to_string(needed) + " bands, more than the asset's " +
+           std::to_string(fieldBands);
+  return std::nullopt;
+}
+
+Status checkForWriting(const Asset& asset) {
+  const encode::EncodedField& field = asset.transfer;
+  if (field.meshes.size() != asset.scene.meshes.size())
+    return report::failed("transfer for " + text(field.meshes.size()) + " meshes in a scene of " +
+                          text(asset.scene.meshes.size()));
+  if (!bandsInRange(field.bands))
+    return report::failed("bands is " + std::to_string(field.bands) + ", not 1 to 10");
+  for (double energy : field.passEnergy)
+    if (!std::isfinite(energy))
+      return report::failed("the energy of a pass is not a finite number");
+  for (std::size_t i = 0; i < field.meshes.size(); ++i)
+    if (auto fault = faultOf(field.meshes[i], asset.scene.meshes[i], field.bands))
+      return report::failed(meshLabel(asset.scene, i) + ": " + *fault);
+  return Status::ok();
+}
+
+}  // namespace lambent::asset

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lambent/asset/asset.h"
+#include "lambent/asset/names.h"
+#include "lambent/file/failure.h"
+
+namespace lambent::asset {
+
+namespace {
+
+constexpr std::size_t kChunk = std::size_t(1) << 20;
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+/// Up to `most` bytes; a file that claims more than it has costs no more than what it has.
+std::string readUpTo(std::FILE* file, std::size_t most) {
+  std::string text;
+  while (text.size() < most) {
+    const std::size_t before = text.size(), want = std::min(kChunk, most - before);
+    text.resize(before + want);
+    const std::size_t got = std::fread(text.data() + before, 1, want, file);
+    text.resize(before + got);
+    if (got < want) break;
+  }
+  return text;
+}
+
+std::uint32_t littleEndian(const unsigned char* bytes) {
+  return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | std::uint32_t(bytes[3]) << 24;
+}
+
+}  // namespace
+
+Result<bool> isAsset(const std::filesystem::path& path) {
+  errno = 0;
+  const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) return file::cannot("read", path, errno);
+  std::array<unsigned char, 20> head{};  // magic, version, length; chunk length, chunk type
+  const std::size_t got = std::fread(head.data(), 1, head.size(), file.get());
+  if (std::ferror(file.get())) return file::cannot("read", path, errno);
+
+  std::string text;
+  if (got == head.size() && std::memcmp(head.data(), "glTF", 4) == 0) {
+    if (std::memcmp(head.data() + 16, "JSON", 4) != 0) return false;
+    text = readUpTo(file.get(), littleEndian(head.data() + 12));
+  } else if (path.extension() == ".gltf") {
+    std::rewind(file.get());
+    text = readUpTo(file.get(), std::size_t(1) << 32);
+  } else {
+    return false;
+  }
+  if (text.find(kExtensionName) == std::string::npos) return false;  // cheaper than to parse
+  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  if (!document.is_object()) return false;
+  const auto extensions = document.find("extensions");
+  return extensions != document.end() && extensions->is_object() &&
+         extensions->contains(kExtensionName);
+}
+
+}  // namespace lambent::asset

@@ -1,0 +1,277 @@
+// glTF with the extension LAMBENT_radiance_transfer → Asset. The file may come from anywhere:
+// every count, bound and number is checked, and nothing larger than the file's own buffers is
+// allocated for its transfer.
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lambent/asset/asset.h"
+#include "lambent/asset/check.h"
+#include "lambent/asset/json_fields.h"
+#include "lambent/asset/names.h"
+#include "lambent/scene_io/gltf_read.h"
+
+namespace lambent::asset {
+
+namespace {
+
+using encode::EncodedField;
+using encode::EncodedMesh;
+using encode::Encoding;
+using encode::Numbers;
+using nlohmann::json;
+using scene_io::AccessorView;
+using scene_io::Component;
+using scene_io::GltfFile;
+using transport::Layout;
+
+static_assert(std::endian::native == std::endian::little);
+
+const std::string kExtension(kExtensionName);
+
+const json* member(const json& object, const std::string& key) {
+  if (!object.is_object()) return nullptr;
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
+}
+
+const json* extensionOf(const json& object) {
+  const json* extensions = member(object, "extensions");
+  return extensions ? member(*extensions, kExtension) : nullptr;
+}
+
+/// Accessors of transfer, copied out. Keeps the sum of what was copied below the file's buffers:
+/// accessors that overlap could otherwise ask for any amount of memory.
+class AccessorReader {
+ public:
+  explicit AccessorReader(const GltfFile& file) : file_(file) {
+    if (const json* buffers = member(file.json(), "buffers"); buffers && buffers->is_array())
+      for (const json& buffer : *buffers)
+        if (const json* length = member(buffer, "byteLength"); length && length->is_number())
+          budget_ += length->get<double>();
+  }
+
+  template <class T>
+  std::vector<T> read(JsonFields& fields, std::string_view key, Component component,
+                      int componentCount) {
+    static_assert(std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3>);
+    const std::int64_t index = fields.integer(key, 0, std::numeric_limits<std::int32_t>::max());
+    const Result<AccessorView> view = file_.accessorView(index);
+    if (!view) {
+      // The message names the file; so will the one that this becomes a part of.
+      std::string message = view.error().message;
+      if (const std::string path = file_.path().string() + ": "; message.starts_with(path))
+        message.erase(0, path.size());
+      fields.complain(key, message);
+      return {};
+    }
+    if (view->component != component || view->componentCount != componentCount) {
+      fields.complain(key, "accessor " + std::to_string(index) + " has component type " +
+                               std::to_string(int(view->component)) + " × " +
+                               std::to_string(view->componentCount) + " where " +
+                               std::to_string(int(component)) + " × " +
+                               std::to_string(componentCount) + " is needed");
+      return {};
+    }
+    budget_ -= double(view->count) * sizeof(T);
+    if (budget_ < 0) {
+      fields.complain(key, "accessors overlap: together they are larger than the file's buffers");
+      return {};
+    }
+    std::vector<T> values(view->count);
+    if (values.empty()) return values;
+    auto* out = reinterpret_cast<std::byte*>(values.data());
+    if (view->packed()) {
+      std::memcpy(out, view->bytes.data(), view->count * sizeof(T));
+    } else {
+      for (std::size_t i = 0; i < view->count; ++i)
+        std::memcpy(out + i * sizeof(T), view->bytes.data() + i * view->stride, sizeof(T));
+    }
+    return values;
+  }
+
+  Numbers numbers(JsonFields& fields) {
+    Numbers numbers;
+    const auto encoding = encodingNamed(fields.string("encoding"));
+    if (!encoding) fields.complain("encoding", "is neither float16 nor float32");
+    numbers.encoding = encoding.value_or(Encoding::Float32);
+    if (numbers.encoding == Encoding::Float16)
+      numbers.half = read<std::uint16_t>(fields, "accessor", Component::UnsignedShort, 1);
+    else
+      numbers.single = read<float>(fields, "accessor", Component::Float, 1);
+    if (numbers.empty()) fields.complain("accessor", "is empty");
+    return numbers;
+  }
+
+ private:
+  const GltfFile& file_;
+  double budget_ = 0.0;  ///< bytes
+};
+
+/// "1.0" → checked against what this reader knows.
+void checkVersion(const std::string& version, JsonFields& fields) {
+  int major = -1, minor = -1;
+  const char* end = version.data() + version.size();
+  auto [dot, error] = std::from_chars(version.data(), end, major);
+  if (error == std::errc() && dot != end && *dot == '.') {
+    const auto rest = std::from_chars(dot + 1, end, minor);
+    if (rest.ec != std::errc() || rest.ptr != end) minor = -1;
+  }
+  const std::string ours = std::to_string(kFormatMajor) + "." + std::to_string(kFormatMinor);
+  if (major < 0 || minor < 0)
+    fields.complain("version", "is not of the form \"" + ours + "\"");
+  else if (major > kFormatMajor)
+    fields.complain("version", version + " is newer than " + ours +
+                                   ", which this Lambent reads: use a newer Lambent");
+  else if (major < kFormatMajor)
+    fields.complain("version", version + " is older than " + ours + ": bake the scene anew");
+}
+
+EncodedField rootOf(JsonFields root) {
+  EncodedField field;
+  checkVersion(root.string("version"), root);  // first: the rest may mean something else
+  const auto kind = transferKindNamed(root.string("transfer"));
+  if (!kind) root.complain("transfer", "is not unshadowed, shadowed or interreflected");
+  field.kind = kind.value_or(field.kind);
+  if (root.string("frame") != "scene") root.complain("frame", "is not \"scene\"");
+  constexpr int kMost = std::numeric_limits<std::int32_t>::max();
+  field.bands = int(root.integer("bands", 1, sh::kMaxBands));
+  field.directions = int(root.integer("directions", 0, kMost));
+  field.bounces = int(root.integer("bounces", 0, kMost));
+  const std::string seed = root.string("seed");
+  const auto parsed = std::from_chars(seed.data(), seed.data() + seed.size(), field.seed);
+  if (parsed.ec != std::errc() || parsed.ptr != seed.data() + seed.size())
+    root.complain("seed", "is not a string of decimal digits, below 2^64");
+  field.passEnergy = root.numbers("passEnergy", 1u << 20);
+  return field;
+}
+
+void readGrid(JsonFields grid, AccessorReader& accessors, EncodedMesh& mesh) {
+  mesh.width = int(grid.integer("width", 1, kLargestGrid));
+  mesh.height = int(grid.integer("height", 1, kLargestGrid));
+  grid.integer("texCoord", 0, 0);
+  mesh.positions = accessors.read<Vec3>(grid, "positions", Component::Float, 3);
+  mesh.normals = accessors.read<Vec3>(grid, "normals", Component::Float, 3);
+  mesh.covered = accessors.read<std::uint8_t>(grid, "covered", Component::UnsignedByte, 1);
+}
+
+EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Mesh& mesh) {
+  EncodedMesh transfer;
+  const std::string layout = object.string("layout");
+  if (layout == nameOf(Layout::Vertices)) {
+    transfer.layout = Layout::Vertices;
+    transfer.positions = mesh.positions;
+    transfer.normals = mesh.normals;
+  } else if (layout == nameOf(Layout::Texels)) {
+    transfer.layout = Layout::Texels;
+    readGrid(object.object("grid"), accessors, transfer);
+  } else {
+    object.complain("layout", "is neither vertices nor texels");
+  }
+  if (object.has("vectors")) {
+    JsonFields vectors = object.object("vectors");
+    transfer.bands = int(vectors.integer("bands", 1, sh::kMaxBands));
+    transfer.channels = int(vectors.integer("channels", 1, 3));
+    const auto albedo = albedoNamed(vectors.string("albedo"));
+    if (!albedo) vectors.complain("albedo", "is neither included nor baseColor");
+    transfer.albedo = albedo.value_or(transfer.albedo);
+    transfer.vectors = accessors.numbers(vectors);
+  }
+  if (object.has("matrices")) {
+    JsonFields matrices = object.object("matrices");
+    transfer.outBands = int(matrices.integer("outBands", 1, sh::kMaxBands));
+    transfer.inBands = int(matrices.integer("inBands", 1, sh::kMaxBands));
+    transfer.matrixChannels = int(matrices.integer("channels", 1, 3));
+    const std::vector<double> glossy = matrices.numbers("glossy", 3);
+    if (glossy.size() != 3) matrices.complain("glossy", "is not an array of 3 numbers");
+    for (std::size_t c = 0; c < glossy.size(); ++c) transfer.glossy[int(c)] = float(glossy[c]);
+    transfer.lobeExponent =
+        float(matrices.number("lobeExponent", 0.0, std::numeric_limits<float>::max()));
+    transfer.matrices = accessors.numbers(matrices);
+  }
+  return transfer;
+}
+
+/// Transfer belongs to a place in the scene: a node that moves its mesh elsewhere takes the
+/// harmonics' frame along, which version 1 of the extension does not say how to do.
+bool staysInPlace(const json& nodes, const std::vector<int>& parents, int node) {
+  static const json kIdentity = json::parse("[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]");
+  static const json kZero = json::parse("[0,0,0]"), kOne = json::parse("[1,1,1]"),
+                    kNoTurn = json::parse("[0,0,0,1]");
+  const auto isOrAbsent = [](const json& object, const char* key, const json& expected) {
+    const json* value = member(object, key);
+    return !value || *value == expected;
+  };
+  for (std::size_t steps = 0; node >= 0 && steps <= parents.size(); ++steps) {
+    const json& object = nodes[std::size_t(node)];
+    if (!isOrAbsent(object, "matrix", kIdentity) || !isOrAbsent(object, "translation", kZero) ||
+        !isOrAbsent(object, "rotation", kNoTurn) || !isOrAbsent(object, "scale", kOne))
+      return false;
+    node = parents[std::size_t(node)];
+  }
+  return true;
+}
+
+std::vector<int> parentsOf(const json& nodes) {
+  std::vector<int> parents(nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const json* children = member(nodes[i], "children"); children && children->is_array())
+      for (const json& child : *children)
+        if (child.is_number_integer() && child.get<std::int64_t>() >= 0 &&
+            child.get<std::uint64_t>() < parents.size())
+          parents[child.get<std::size_t>()] = int(i);
+  return parents;
+}
+
+}  // namespace
+
+Result<Asset> read(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  Result<GltfFile> file = GltfFile::open(path);
+  if (!file) return file.error();
+  const json& document = file->json();
+  const json* root = extensionOf(document);
+  if (!root)
+    return report::badInput(name + ": is an ordinary glTF file: bake it first with `lambent bake`");
+
+  Fault fault;
+  Asset asset;
+  asset.transfer = rootOf(JsonFields(*root, "extensions." + kExtension, fault));
+  if (!fault.empty()) return report::badInput(name + ": " + fault);
+
+  Result<scene_io::LoadedGltf> loaded = scene_io::loadGltf(*file, {.keepAllVertices = true});
+  if (!loaded) return loaded.error();
+  asset.scene = std::move(loaded->loaded.scene);
+
+  AccessorReader accessors(*file);
+  const json& nodes = document["nodes"];
+  const std::vector<int> parents = parentsOf(nodes);
+  for (std::size_t i = 0; i < asset.scene.meshes.size(); ++i) {
+    const auto& origin = loaded->origins[i];
+    const json* object = extensionOf(
+        document["meshes"][std::size_t(origin.mesh)]["primitives"][std::size_t(origin.primitive)]);
+    if (!object) {
+      asset.transfer.meshes.emplace_back();
+      continue;
+    }
+    const std::string place = "meshes[" + std::to_string(origin.mesh) + "].primitives[" +
+                              std::to_string(origin.primitive) + "].extensions." + kExtension;
+    if (!staysInPlace(nodes, parents, origin.node))
+      return report::badInput(
+          name + ": nodes[" + std::to_string(origin.node) +
+          "]: moves a mesh away from where its transfer was baked: bake the scene as "
+          "it stands now");
+    const scene::Mesh& mesh = asset.scene.meshes[i];
+    EncodedMesh transfer = meshOf(JsonFields(*object, place, fault), accessors, mesh);
+    if (!fault.empty()) return report::badInput(name + ": " + fault);
+    if (const auto wrong = faultOf(transfer, mesh, asset.transfer.bands))
+      return report::badInput(name + ": " + place + ": " + *wrong);
+    asset.transfer.meshes.push_back(std::move(transfer));
+  }
+  return asset;
+}
+
+}  // namespace lambent::asset

@@ -1,0 +1,172 @@
+// Terms: Â_l, convolution factors of the clamped cosine (Ramamoorthi 2001 eq. 8); y_i, the basis of
+// three bands, written out here by hand so that the samples check the basis and not themselves.
+#include "lambent/asset/samples.h"
+
+#include <array>
+#include <cmath>
+
+namespace lambent::asset {
+
+namespace {
+
+using encode::Encoding;
+using transport::Layout;
+
+std::array<double, 9> basis(const Vec3d& d) {
+  const double x = d.x(), y = d.y(), z = d.z();
+  return {std::sqrt(1.0 / (4.0 * kPi)),
+          std::sqrt(3.0 / (4.0 * kPi)) * y,
+          std::sqrt(3.0 / (4.0 * kPi)) * z,
+          std::sqrt(3.0 / (4.0 * kPi)) * x,
+          std::sqrt(15.0 / (4.0 * kPi)) * x * y,
+          std::sqrt(15.0 / (4.0 * kPi)) * y * z,
+          std::sqrt(5.0 / (16.0 * kPi)) * (3.0 * z * z - 1.0),
+          std::sqrt(15.0 / (4.0 * kPi)) * x * z,
+          std::sqrt(15.0 / (16.0 * kPi)) * (x * x - y * y)};
+}
+
+/// ρ/π Â_l y_i(N): transfer of a receiver that nothing hides the light from.
+std::vector<float> unoccluded(const Rgb& albedo, int channels, const Vec3& normal) {
+  constexpr std::array<double, 3> kCosine{kPi, 2.0 * kPi / 3.0, kPi / 4.0};
+  const std::array<double, 9> y = basis(normal.cast<double>());
+  std::vector<float> vector;
+  for (int c = 0; c < channels; ++c)
+    for (int l = 0; l < 3; ++l)
+      for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+        vector.push_back(
+            float(double(albedo[c]) / kPi * kCosine[std::size_t(l)] * y[std::size_t(i)]));
+  return vector;
+}
+
+/// A square of edge 2 around `center` that faces +y, front side up.
+scene::Mesh square(const char* name, int material, const Vec3& center) {
+  scene::Mesh mesh;
+  mesh.name = name;
+  mesh.material = material;
+  for (const Vec2& corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1), Vec2(1, 1)}) {
+    mesh.positions.push_back(center +
+                             Vec3(2.0f * corner.x() - 1.0f, 0.0f, 2.0f * corner.y() - 1.0f));
+    mesh.normals.emplace_back(0.0f, 1.0f, 0.0f);
+    mesh.uvs.push_back(corner);
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}};
+  return mesh;
+}
+
+void repeatVectors(encode::EncodedMesh& transfer, const Rgb& albedo, int channels,
+                   Encoding encoding) {
+  transfer.bands = 3;
+  transfer.channels = channels;
+  std::vector<float> numbers;
+  for (const Vec3& normal : transfer.normals) {
+    const std::vector<float> one = unoccluded(albedo, channels, normal);
+    numbers.insert(numbers.end(), one.begin(), one.end());
+  }
+  transfer.vectors = encode::encode(numbers, encoding);
+}
+
+encode::EncodedMesh atVertices(const scene::Mesh& mesh) {
+  encode::EncodedMesh transfer;
+  transfer.layout = Layout::Vertices;
+  transfer.positions = mesh.positions;
+  transfer.normals = mesh.normals;
+  return transfer;
+}
+
+encode::EncodedField statement() {
+  encode::EncodedField field;
+  field.kind = transport::TransferKind::Unshadowed;
+  field.bands = 3;
+  return field;
+}
+
+scene::Material grey(const char* name) {
+  scene::Material material;
+  material.name = name;
+  material.diffuse = Rgb::Constant(0.5f);
+  return material;
+}
+
+}  // namespace
+
+Asset unoccludedSquare() {
+  Asset asset;
+  asset.scene.materials = {grey("grey")};
+  asset.scene.meshes = {square("square", 0, Vec3::Zero())};
+  asset.transfer = statement();
+  encode::EncodedMesh transfer = atVertices(asset.scene.meshes[0]);
+  repeatVectors(transfer, Rgb::Constant(0.5f), 1, Encoding::Float32);
+  asset.transfer.meshes = {transfer};
+  double energy = 0.0;
+  for (float m : decode(transfer.vectors)) energy += double(m) * double(m);
+  asset.transfer.passEnergy = {energy / double(transfer.receiverCount())};
+  return asset;
+}
+
+Asset everyLayout() {
+  Asset asset;
+  scene::Material coloured = grey("coloured");
+  coloured.diffuse = Rgb(0.75f, 0.5f, 0.25f);
+  scene::Material glossy = grey("glossy");
+  glossy.glossy = Rgb(0.25f, 0.5f, 0.125f);
+  glossy.lobeExponent = 16.0f;
+  scene::Material mirror;
+  mirror.name = "mirror";
+  mirror.diffuse = Rgb::Zero();
+  mirror.mirror = Rgb::Constant(0.875f);
+  asset.scene.materials = {coloured, grey("grey"), glossy, mirror};
+  asset.scene.meshes = {square("per vertex", 0, {0, 0, 0}), square("per texel", 1, {3, 0, 0}),
+                        square("glossy", 2, {6, 0, 0}), square("mirror", 3, {9, 0, 0})};
+  asset.scene.meshes[0].colors = {{1, 1, 1}, {0.5f, 1, 1}, {1, 0.5f, 1}, {1, 1, 0.5f}};
+  scene::Camera camera;
+  camera.name = "above";
+  camera.worldFromCamera << 1, 0, 0, 4.5f, 0, 0, 1, 12, 0, -1, 0, 0, 0, 0, 0, 1;
+  asset.scene.cameras = {camera};
+
+  asset.transfer = statement();
+  asset.transfer.kind = transport::TransferKind::Interreflected;
+  asset.transfer.directions = 8192;
+  asset.transfer.bounces = 2;
+  asset.transfer.seed = 0xfedcba9876543210u;  // more than a JSON number holds in every reader
+  asset.transfer.passEnergy = {0.125, 0.0625, 1.0 / 3.0};
+
+  encode::EncodedMesh perVertex = atVertices(asset.scene.meshes[0]);
+  perVertex.albedo = transport::Albedo::BaseColor;
+  repeatVectors(perVertex, coloured.diffuse, 3, Encoding::Float16);
+
+  encode::EncodedMesh perTexel;
+  perTexel.layout = Layout::Texels;
+  perTexel.width = 3;
+  perTexel.height = 2;
+  for (int row = 0; row < 2; ++row)
+    for (int column = 0; column < 3; ++column) {
+      const Vec2 uv((float(column) + 0.5f) / 3.0f, (float(row) + 0.5f) / 2.0f);
+      perTexel.positions.emplace_back(2.0f + 2.0f * uv.x(), 0.0f, 2.0f * uv.y() - 1.0f);
+      perTexel.normals.emplace_back(0.0f, 1.0f, 0.0f);
+      perTexel.covered.push_back(row == 1 && column == 2 ? 0 : 1);
+    }
+  repeatVectors(perTexel, Rgb::Constant(0.5f), 1, Encoding::Float16);
+
+  encode::EncodedMesh shiny = atVertices(asset.scene.meshes[2]);
+  repeatVectors(shiny, Rgb::Constant(0.5f), 1, Encoding::Float32);
+  shiny.outBands = 2;
+  shiny.inBands = 3;
+  shiny.matrixChannels = 1;
+  shiny.glossy = glossy.glossy;
+  shiny.lobeExponent = glossy.lobeExponent;
+  // Nothing hides the light: the identity, its rows cut to 2 bands.
+  std::vector<float> matrices;
+  for (std::size_t receiver = 0; receiver < shiny.receiverCount(); ++receiver)
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 9; ++column) matrices.push_back(row == column ? 1.0f : 0.0f);
+  shiny.matrices = encode::encode(matrices, Encoding::Float32);
+
+  asset.transfer.meshes = {perVertex, perTexel, shiny, encode::EncodedMesh{}};
+  return asset;
+}
+
+std::vector<std::pair<std::string, Asset>> samples() {
+  return {{"unoccluded-square.glb", unoccludedSquare()}, {"every-layout.glb", everyLayout()}};
+}
+
+}  // namespace lambent::asset

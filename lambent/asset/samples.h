@@ -1,0 +1,25 @@
+// The sample assets of spec/samples: built from closed forms, for tests and for the tool that
+// writes them.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lambent/asset/asset.h"
+
+namespace lambent::asset {
+
+/// A square of grey ρ = 0.5 that faces +y with nothing around it, 3 bands, 32-bit floats. All four
+/// receivers hold M_i = ρ/π · Â_l · y_i(+y) (Ramamoorthi 2001 eq. 8).
+Asset unoccludedSquare();
+
+/// One mesh of every kind: vertex vectors (float16, 3 channels, base colour outside), texel vectors
+/// (float16, 1 channel, one texel dilated), glossy matrices (float32, 1 channel, 2×3 bands) beside
+/// vectors, and a mirror.
+Asset everyLayout();
+
+/// File name → asset.
+std::vector<std::pair<std::string, Asset>> samples();
+
+}  // namespace lambent::asset

@@ -1,0 +1,97 @@
+// The files against spec/: every member that is written is in the schema, every member that the
+// schema requires is written, and the committed samples read as what they are meant to be.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "lambent/asset/asset.h"
+#include "lambent/asset/names.h"
+#include "lambent/asset/samples.h"
+#include "lambent/asset/test_support.h"
+
+namespace lambent::asset {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path kSpec = LAMBENT_SPEC_DIR;
+const std::string kName(kExtensionName);
+
+json schema(const std::string& what) {
+  std::ifstream file(kSpec / kName / "schema" / (what + "." + kName + ".schema.json"));
+  EXPECT_TRUE(file);
+  return json::parse(file, nullptr, false);
+}
+
+/// Keys, enumerations and required members, through nested objects. The whole of JSON schema is
+/// checked by tests/gltf with a full validator.
+void expectDescribed(const json& value, const json& schemaObject, const std::string& place) {
+  SCOPED_TRACE(place);
+  for (const auto& [key, member] : value.items()) {
+    ASSERT_TRUE(schemaObject["properties"].contains(key)) << key;
+    const json& described = schemaObject["properties"][key];
+    if (described.contains("enum")) {
+      EXPECT_NE(std::find(described["enum"].begin(), described["enum"].end(), member),
+                described["enum"].end())
+          << member;
+    }
+    if (member.is_object()) expectDescribed(member, described, place + "." + key);
+  }
+  for (const json& required : schemaObject["required"])
+    EXPECT_TRUE(value.contains(required.get<std::string>())) << required;
+}
+
+TEST(Spec, WhatIsWrittenIsWhatTheSchemaSays) {
+  const test::Folder folder;
+  ASSERT_TRUE(write(everyLayout(), folder / "asset.glb"));
+  const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
+  EXPECT_EQ(document["extensionsUsed"], json::array({kName}));
+  EXPECT_FALSE(document.contains("extensionsRequired"));
+  expectDescribed(document["extensions"][kName], schema("glTF"), "root");
+  const json primitives = schema("mesh.primitive");
+  for (std::size_t i = 0; i < 3; ++i)
+    expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][kName], primitives,
+                    "mesh " + std::to_string(i));
+  EXPECT_FALSE(document["meshes"][3]["primitives"][0].contains("extensions"));  // the mirror
+}
+
+TEST(Spec, SchemaNamesEveryEnumeration) {
+  const json primitives = schema("mesh.primitive");
+  for (const json& name : schema("glTF")["properties"]["transfer"]["enum"])
+    EXPECT_TRUE(transferKindNamed(name.get<std::string>())) << name;
+  for (const json& name : primitives["properties"]["layout"]["enum"])
+    EXPECT_TRUE(layoutNamed(name.get<std::string>())) << name;
+  for (const json& name : primitives["properties"]["vectors"]["properties"]["albedo"]["enum"])
+    EXPECT_TRUE(albedoNamed(name.get<std::string>())) << name;
+  for (const json& name : primitives["$defs"]["encoding"]["enum"])
+    EXPECT_TRUE(encodingNamed(name.get<std::string>())) << name;
+}
+
+TEST(Spec, CommittedSamplesReadAsMeant) {
+  for (const auto& [name, asset] : samples()) {
+    SCOPED_TRACE(name);
+    const Result<Asset> read = asset::read(kSpec / "samples" / name);
+    ASSERT_TRUE(read) << read.error().message
+                      << "\nafter a change of the samples: lambent_write_samples spec/samples";
+    test::expectSame(*read, asset);
+  }
+}
+
+TEST(Spec, TheSquareIsWhatAHandCalculates) {
+  const Result<Asset> read = asset::read(kSpec / "samples" / "unoccluded-square.glb");
+  ASSERT_TRUE(read) << read.error().message;
+  const std::vector<float> m = decode(read->transfer.meshes[0].vectors);
+  ASSERT_EQ(m.size(), 4u * 9u);
+  // ρ/π · Â_l · y_i(+y) with ρ = ½: ½ y_00, ⅓ y_1−1, and ⅛ of y_20 = −√(5/16π), y_22 = −√(15/16π).
+  const double expected[9] = {0.5 * 0.28209479, 0.48860251 / 3, 0, 0, 0, 0, -0.31539157 / 8, 0,
+                              -0.54627422 / 8};
+  for (std::size_t i = 0; i < m.size(); ++i) EXPECT_NEAR(m[i], expected[i % 9], 1e-7) << i;
+  // White light from everywhere, L = (√4π, 0, …): exit radiance is ρ.
+  EXPECT_NEAR(m[0] * std::sqrt(4.0 * kPi), 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace lambent::asset

@@ -1,0 +1,64 @@
+// What is in an asset, counted: for a person or a program that asks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lambent/asset/asset.h"
+
+namespace lambent::asset {
+
+struct VectorsSummary {
+  int bands = 0, channels = 0;
+  encode::Encoding encoding = encode::Encoding::Float16;
+  transport::Albedo albedo = transport::Albedo::Included;
+  std::uint64_t bytes = 0;
+};
+
+struct MatricesSummary {
+  int outBands = 0, inBands = 0, channels = 0;
+  encode::Encoding encoding = encode::Encoding::Float16;
+  Rgb glossy = Rgb::Zero();
+  float lobeExponent = 0.0f;
+  std::uint64_t bytes = 0;
+};
+
+struct MeshSummary {
+  std::string name, material;
+  bool mirror = false;  ///< reflects, and holds no transfer
+  std::uint64_t vertices = 0, triangles = 0;
+  transport::Layout layout = transport::Layout::None;
+  int width = 0, height = 0;  ///< Texels only
+  std::uint64_t receivers = 0;
+  std::uint64_t covered = 0;  ///< Texels: receivers with a surface point of their own
+  std::optional<VectorsSummary> vectors;
+  std::optional<MatricesSummary> matrices;
+};
+
+/// Bytes that each part takes in the file's binary chunk, without the JSON and without padding.
+struct PartBytes {
+  std::uint64_t geometry = 0;  ///< positions, normals, UVs, colours (as floats), 32-bit indices
+  std::uint64_t textures = 0;  ///< as encoded in the file
+  std::uint64_t vectors = 0;
+  std::uint64_t matrices = 0;
+  std::uint64_t receivers = 0;  ///< texel receivers' positions, normals and coverage
+  std::uint64_t total() const { return geometry + textures + vectors + matrices + receivers; }
+};
+
+struct Summary {
+  transport::TransferKind kind = transport::TransferKind::Shadowed;
+  int bands = 0, directions = 0, bounces = 0;
+  std::uint64_t seed = 0;
+  std::vector<double> passEnergy;
+  std::uint64_t vertices = 0, triangles = 0, receivers = 0;
+  std::uint64_t materials = 0, textures = 0, cameras = 0;
+  PartBytes bytes;
+  std::uint64_t memoryBytes = 0;  ///< of the Asset in memory, textures decoded
+  std::vector<MeshSummary> meshes;
+};
+
+Summary summarize(const Asset& asset);
+
+}  // namespace lambent::asset
