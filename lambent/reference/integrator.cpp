@@ -1,0 +1,137 @@
+// Unidirectional path tracing. At every diffuse or glossy surface of a path: direct light by a draw
+// from the environment and by the draw that continues the path, weighted by the balance heuristic;
+// light that comes over mirrors only by the latter, because no draw from the environment can find
+// it (a directional light over a mirror is therefore never found).
+//
+// The conventions are the bake's, so that both converge to the same numbers: rays start on the
+// surface lifted by RayScene::offset() along the shading normal; directions behind the shading
+// normal bring nothing; back faces block; mirrors reflect about their shading normal and are no
+// bounce.
+//
+// This work is based on:
+// - kajiya1986rendering: path tracing.
+// - veach1997robust: §9.2 multiple importance sampling, §10.4 Russian roulette.
+// - sloan2002precomputed: §4 and §5, what transfer means and which paths it has: (L[S]*p,
+//   L[S]*D[S]*p, …).
+#include "lambent/reference/integrator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lambent/math/directions.h"
+#include "lambent/reference/scattering.h"
+
+namespace lambent::reference {
+namespace {
+
+constexpr int kMostMirrors = 64;  ///< in a row; two mirrors that face each other end somewhere
+constexpr int kRouletteDepth = 4;
+constexpr float kLeastSurvival = 0.05f;
+
+}  // namespace
+
+Integrator::Integrator(const scene::Scene& scene, const trace::RayScene& rays,
+                       const light::Environment& environment, const PathTraceOptions& options)
+    : scene_(scene), rays_(rays), environment_(environment), options_(options) {
+  for (const scene::Material& material : scene.materials) hasMirrors_ |= material.isMirror();
+}
+
+Vec3 Integrator::lifted(const scene::SurfacePoint& point) const {
+  return point.position + rays_.offset() * point.normal;
+}
+
+Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint) const {
+  for (;; ++mirrors) {
+    const std::optional<trace::Hit> hit = rays_.closest(origin, direction);
+    if (!hit) return Escaped{direction, mirrors};
+    if (hit->backFace) return Blocked{};
+    const scene::SurfacePoint point =
+        scene::surfaceAt(scene_, hit->mesh, hit->triangle, hit->u, hit->v);
+    if (!scene_.materials[scene_.meshes[hit->mesh].material].isMirror())
+      return Surface{point, -direction};
+    if (mirrors == kMostMirrors) return Blocked{};
+    tint *= point.mirror;
+    direction = math::reflectAbout(-direction, point.normal).normalized();
+    origin = lifted(point);
+  }
+}
+
+Rgb Integrator::leaving(const scene::SurfacePoint& point, const Vec3& toViewer,
+                        Sampler& sampler) const {
+  if (!(point.mirror.maxCoeff() > 0)) return scattered(point, toViewer, sampler);
+  Rgb tint = point.mirror;
+  const Vec3 away = math::reflectAbout(toViewer, point.normal).normalized();
+  const End end = follow(lifted(point), away, 1, tint);
+  if (const auto* escaped = std::get_if<Escaped>(&end))
+    return tint * environment_.radiance(escaped->direction);
+  if (const auto* surface = std::get_if<Surface>(&end))
+    return tint * scattered(surface->point, surface->toViewer, sampler);
+  return Rgb::Zero();
+}
+
+Integrator::Seen Integrator::seen(const scene::Ray& ray, Sampler& sampler) const {
+  Rgb tint = Rgb::Ones();
+  const End end = follow(ray.origin, ray.direction, 0, tint);
+  if (const auto* surface = std::get_if<Surface>(&end))
+    return {tint * scattered(surface->point, surface->toViewer, sampler), 1.0f};
+  if (const auto* escaped = std::get_if<Escaped>(&end)) {
+    if (escaped->mirrors == 0 && !options_.background) return {Rgb::Zero(), 0.0f};
+    return {tint * environment_.radiance(escaped->direction), 1.0f};
+  }
+  return {Rgb::Zero(), 1.0f};
+}
+
+Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sampler) const {
+  Rgb sum = Rgb::Zero(), throughput = Rgb::Ones();
+  const int bounces = options_.shadows ? options_.bounces : 0;
+  for (int bounce = 0;; ++bounce) {
+    const Scattering scattering(point, toViewer);
+    if (scattering.black()) return sum;
+    const Vec3 origin = lifted(point);
+    const Vec2 lightNumbers = sampler.next(), lobeNumbers = sampler.next(),
+               choices = sampler.next();
+
+    const light::Environment::Sample drawn =
+        environment_.sample(lightNumbers.x(), lightNumbers.y());
+    if (drawn.pdf > 0 && (drawn.radianceOverPdf != 0).any()) {
+      const Rgb value = scattering.value(drawn.direction);
+      if ((value > 0).any() && !(options_.shadows && rays_.occluded(origin, drawn.direction))) {
+        const float weight = std::isinf(drawn.pdf)
+                                 ? 1.0f
+                                 : drawn.pdf / (drawn.pdf + scattering.pdf(drawn.direction));
+        sum += throughput * value * drawn.radianceOverPdf * weight;
+      }
+    }
+
+    const Vec3 direction = scattering.draw(lobeNumbers, choices.x());
+    const float pdf = scattering.pdf(direction);
+    const Rgb value = scattering.value(direction);
+    if (!(pdf > 0) || !(value > 0).any()) return sum;
+    throughput *= value / pdf;
+
+    End end = Blocked{};
+    if (!options_.shadows) {
+      end = Escaped{direction, 0};
+    } else if (bounce == bounces && !hasMirrors_) {
+      if (!rays_.occluded(origin, direction)) end = Escaped{direction, 0};
+    } else {
+      end = follow(origin, direction, 0, throughput);
+    }
+    if (const auto* escaped = std::get_if<Escaped>(&end)) {
+      const float weight =
+          escaped->mirrors > 0 ? 1.0f : pdf / (pdf + environment_.pdf(escaped->direction));
+      return sum + throughput * environment_.radiance(escaped->direction) * weight;
+    }
+    const auto* surface = std::get_if<Surface>(&end);
+    if (!surface || bounce == bounces) return sum;
+    if (bounce >= kRouletteDepth) {
+      const float survival = std::clamp(throughput.maxCoeff(), kLeastSurvival, 1.0f);
+      if (choices.y() >= survival) return sum;
+      throughput /= survival;
+    }
+    point = surface->point;
+    toViewer = surface->toViewer;
+  }
+}
+
+}  // namespace lambent::reference

@@ -1,0 +1,53 @@
+// One path: its estimate of the radiance that arrives or leaves.
+#pragma once
+
+#include <variant>
+
+#include "lambent/light/environment.h"
+#include "lambent/reference/path_tracer.h"
+#include "lambent/reference/sampler.h"
+#include "lambent/scene/camera.h"
+#include "lambent/trace/ray_scene.h"
+
+namespace lambent::reference {
+
+class Integrator {
+ public:
+  /// Keeps references: everything must outlive it.
+  Integrator(const scene::Scene& scene, const trace::RayScene& rays,
+             const light::Environment& environment, const PathTraceOptions& options);
+
+  /// An unbiased estimate of the radiance that leaves `point` towards `toViewer`.
+  Rgb leaving(const scene::SurfacePoint& point, const Vec3& toViewer, Sampler& sampler) const;
+
+  struct Seen {
+    Rgb radiance;
+    float coverage;  ///< 1 where a surface is, or the background is shown
+  };
+  Seen seen(const scene::Ray& ray, Sampler& sampler) const;
+
+ private:
+  struct Escaped {
+    Vec3 direction;
+    int mirrors;
+  };
+  struct Blocked {};
+  struct Surface {
+    scene::SurfacePoint point;
+    Vec3 toViewer;  ///< back along the ray that arrived
+  };
+  /// Where a ray ends when mirrors are followed, and what they left of the light in `tint`.
+  using End = std::variant<Blocked, Escaped, Surface>;
+  End follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint) const;
+
+  Rgb scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sampler) const;
+  Vec3 lifted(const scene::SurfacePoint& point) const;
+
+  const scene::Scene& scene_;
+  const trace::RayScene& rays_;
+  const light::Environment& environment_;
+  PathTraceOptions options_;
+  bool hasMirrors_ = false;
+};
+
+}  // namespace lambent::reference

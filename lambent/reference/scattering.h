@@ -1,0 +1,32 @@
+// How a surface scatters light towards a viewer: the Material of lambent/scene/scene.h as values,
+// densities and draws.
+#pragma once
+
+#include "lambent/math/types.h"
+#include "lambent/scene/scene.h"
+
+namespace lambent::reference {
+
+class Scattering {
+ public:
+  /// `toViewer` is a unit vector; the point is no mirror.
+  Scattering(const scene::SurfacePoint& point, const Vec3& toViewer);
+
+  /// Exit radiance per radiance · ds from a direction: ρ/π max(0, N·s) + k G(s, R), 0 behind the
+  /// shading normal.
+  Rgb value(const Vec3& direction) const;
+  /// The density with which draw() draws, sr⁻¹. The glossy lobe also draws directions behind the
+  /// normal, whose value is 0.
+  float pdf(const Vec3& direction) const;
+  Vec3 draw(const Vec2& u, float chooseLobe) const;
+  bool black() const { return black_; }
+
+ private:
+  Vec3 normal_, reflected_;
+  Rgb diffuse_, glossy_;
+  float exponent_;
+  float diffuseShare_ = 1.0f;  ///< probability of drawing by the cosine
+  bool black_ = false;
+};
+
+}  // namespace lambent::reference
