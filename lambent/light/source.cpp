@@ -5,12 +5,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "lambent/image/io.h"
+#include "lambent/image/maps.h"
 #include "lambent/image/repair.h"
 
 namespace lambent::light {
@@ -20,8 +22,9 @@ using report::badUsage;
 namespace {
 
 constexpr std::string_view kForms =
-    "A light is FILE.exr, FILE.hdr or FILE.png (a latitude-longitude map), LIGHT.json, "
-    "uniform[:RADIANCE], disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE] (degrees) or "
+    "A light is FILE.exr, FILE.hdr or FILE.png (a latitude-longitude map), cube:FILE, angular:FILE "
+    "or ball:FILE (other maps), LIGHT.json, uniform[:RADIANCE], "
+    "disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE] (degrees) or "
     "directional:AZIMUTH,ELEVATION[,IRRADIANCE], and several joined by '+' add up";
 
 Error usage(std::string_view term, std::string_view what, std::string_view example) {
@@ -164,19 +167,56 @@ Status makeLight(image::Image& image, const std::filesystem::path& path, Finding
   return Status::ok();
 }
 
-Result<Environment> readLatLong(const std::filesystem::path& path, Findings* findings) {
+/// Another kind of map becomes one in latitude and longitude, at twice its resolution so that the
+/// change of grid costs nothing that can be seen.
+image::Image toLatLong(const image::Image& map, image::MapKind kind) {
+  constexpr int kMostRows = 4096;
+  // A cube's faces, whatever their layout, are as wide as the greatest common divisor of its sides
+  // and half as high as a sphere; the other maps' sides span the sphere twice over.
+  const int rows = kind == image::MapKind::Cube ? 4 * std::gcd(map.width, map.height) : map.height;
+  const int height = std::clamp(rows, 1, kMostRows);
+  return image::resample(map, kind, {image::MapKind::LatLong, 2 * height, height});
+}
+
+/// What to write before the file's name for a picture that is no latitude-longitude map.
+std::string remedyForShape(int width, int height) {
+  const std::optional<image::MapKind> kind = image::guessKind(width, height);
+  if (kind == image::MapKind::Cube) return "for a cube map write cube:FILE";
+  if (kind == image::MapKind::Angular)
+    return "for a light probe write angular:FILE, for a mirrored ball ball:FILE";
+  return "resize or crop it to 2:1";
+}
+
+Result<Environment> readMap(const std::filesystem::path& path, image::MapKind kind,
+                            Findings* findings) {
   Result<image::Image> image = image::read(path);
   if (!image) return image.error();
-  if (image->width != 2 * image->height)
+  if (kind == image::MapKind::LatLong && image->width != 2 * image->height)
     return badInput(fmt::format(
-        "{}: {} x {} pixels; a latitude-longitude map is twice as wide as high. Resize or crop it "
-        "to 2:1",
-        path.string(), image->width, image->height));
+        "{}: {} x {} pixels; a latitude-longitude map is twice as wide as high: {}", path.string(),
+        image->width, image->height, remedyForShape(image->width, image->height)));
+  if (const Status status = image::checkShape({kind, image->width, image->height}); !status)
+    return badInput(fmt::format("{}: {}", path.string(), status.error().message));
   if (const Status status = makeLight(*image, path, findings); !status) return status.error();
+  if (kind != image::MapKind::LatLong) *image = toLatLong(*image, kind);
   return Environment::latLong(std::move(*image));
 }
 
+struct MapPrefix {
+  std::string_view text;
+  image::MapKind kind;
+};
+constexpr MapPrefix kMapPrefixes[] = {{"cube:", image::MapKind::Cube},
+                                      {"angular:", image::MapKind::Angular},
+                                      {"ball:", image::MapKind::MirrorBall}};
+
 Result<Environment> parseFile(std::string_view term, Findings* findings) {
+  for (const MapPrefix& prefix : kMapPrefixes)
+    if (term.starts_with(prefix.text)) {
+      if (term == prefix.text)
+        return usage(term, "the file is missing", fmt::format("{}probe.exr", prefix.text));
+      return readMap(std::string(term.substr(prefix.text.size())), prefix.kind, findings);
+    }
   const std::filesystem::path path{std::string(term)};
   std::string extension = path.extension().string();
   for (char& c : extension)
@@ -186,8 +226,8 @@ Result<Environment> parseFile(std::string_view term, Findings* findings) {
     if (!light) return light.error();
     return Environment::harmonics(std::move(*light));
   }
-  if (extension == ".exr" || extension == ".hdr" || extension == ".png")
-    return readLatLong(path, findings);
+  for (const std::string_view known : {".exr", ".hdr", ".png", ".jpg", ".jpeg"})
+    if (extension == known) return readMap(path, image::MapKind::LatLong, findings);
   return badUsage(fmt::format("light '{}': neither a kind of light nor a file that can be one. {}",
                               term, kForms));
 }
@@ -209,8 +249,11 @@ std::size_t endOfTerm(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   const bool analytic =
       rest.starts_with("uniform") || rest.starts_with("disc:") || rest.starts_with("directional:");
+  std::size_t name = at;  // where the file's name begins
+  for (const MapPrefix& prefix : kMapPrefixes)
+    if (rest.starts_with(prefix.text)) name += prefix.text.size();
   std::size_t firstPlus = text.size(), asFile = 0;
-  for (std::size_t i = at; i <= text.size(); ++i) {
+  for (std::size_t i = name; i <= text.size(); ++i) {
     if (i < text.size() && text[i] != '+') continue;
     const bool exponent = analytic && i < text.size() && i >= at + 2 &&
                           (text[i - 1] == 'e' || text[i - 1] == 'E') &&
@@ -218,7 +261,8 @@ std::size_t endOfTerm(std::string_view text, std::size_t at) {
     if (exponent) continue;
     firstPlus = std::min(firstPlus, i);
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(std::string(text.substr(at, i - at)), ignored)) asFile = i;
+    if (std::filesystem::is_regular_file(std::string(text.substr(name, i - name)), ignored))
+      asFile = i;
   }
   return asFile ? asFile : firstPlus;
 }

@@ -11,7 +11,8 @@
 
 namespace lambent::light {
 
-/// FILE.exr|.hdr|.png (lat-long, 2:1) | LIGHT.json | uniform[:RADIANCE] |
+/// FILE.exr|.hdr|.png (lat-long, 2:1) | cube:FILE | angular:FILE | ball:FILE (see image::MapKind) |
+/// LIGHT.json | uniform[:RADIANCE] |
 /// disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE] | directional:AZIMUTH,ELEVATION[,IRRADIANCE]
 /// (degrees; azimuth from +x towards +z), and several joined by '+', which add up. RADIANCE
 /// (W m⁻² sr⁻¹) and IRRADIANCE (W m⁻², on a surface that faces the light) are one number or R/G/B.

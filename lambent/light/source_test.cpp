@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "lambent/image/io.h"
+#include "lambent/image/maps.h"
+#include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 
 namespace lambent::light {
@@ -114,11 +116,48 @@ TEST_F(Source, Images) {
   expectLight(path("MAP.EXR"), expected);
 }
 
+TEST_F(Source, OtherMapsShowTheSameLight) {
+  // A smooth light, drawn into every kind of map.
+  sh::RgbCoefficients f(3);
+  math::Random random(6, 0);
+  for (float& value : f.values) value = random.uniform() - 0.5f;
+  for (int c = 0; c < 3; ++c) f.channel(c)[0] = 8;  // positive everywhere
+  const Environment expected = Environment::harmonics(f);
+  const auto compare = [&](const std::string& text, image::MapKind kind, int width, int height) {
+    image::Image map(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        if (const auto s = image::directionOf({kind, width, height}, {x + 0.5, y + 0.5}))
+          map.at(x, y) = expected.radiance(s->cast<float>());
+    writeImage("map.exr", map);
+    const Result<Environment> light = parseSource(text + path("map.exr"));
+    ASSERT_TRUE(light) << light.error().message;
+    const auto g = light->project(3);
+    for (std::size_t i = 0; i < g.values.size(); ++i)
+      EXPECT_NEAR(g.values[i], f.values[i], 0.01) << text << width << "x" << height;
+    for (int n = 0; n < 100; ++n) {
+      const Vec3 s = math::uniformSphere(random.uniform2());
+      EXPECT_LT((light->radiance(s) - expected.radiance(s)).abs().maxCoeff(), 0.02) << text;
+    }
+  };
+  compare("", image::MapKind::LatLong, 128, 64);
+  compare("cube:", image::MapKind::Cube, 32, 192);
+  compare("cube:", image::MapKind::Cube, 128, 96);
+  compare("angular:", image::MapKind::Angular, 128, 128);
+  // A mirrored ball hardly shows what is behind it; its rim is the seam.
+  compare("ball:", image::MapKind::MirrorBall, 512, 512);
+}
+
 TEST_F(Source, ImagesThatAreNoLight) {
   expectError(path("none.exr"), ErrorKind::BadInput, {"none.exr"});
   expectError(write("broken.hdr", "#?RADIANCE\n"), ErrorKind::BadInput, {"broken.hdr"});
   expectError(writeImage("square.exr", image::Image(4, 4)), ErrorKind::BadInput,
-              {"square.exr", "4 x 4", "2:1"});
+              {"square.exr", "4 x 4", "angular:FILE"});
+  expectError(writeImage("cross.exr", image::Image(8, 6)), ErrorKind::BadInput, {"cube:FILE"});
+  expectError(writeImage("odd.exr", image::Image(7, 5)), ErrorKind::BadInput, {"2:1"});
+  expectError("cube:" + path("odd.exr"), ErrorKind::BadInput, {"odd.exr"});
+  expectError("angular:" + path("none.exr"), ErrorKind::BadInput, {"none.exr"});
+  expectError("cube:", ErrorKind::BadUsage, {"cube:probe.exr"});
 }
 
 TEST_F(Source, PixelsThatAreNoRadiance) {
