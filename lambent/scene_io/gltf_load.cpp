@@ -342,7 +342,7 @@ Status Loader::placeMesh(std::int64_t nodeIndex, std::int64_t meshIndex, const M
     if (!mesh) return mesh.error();
     if (!world.isIdentity(0.0)) *mesh = scene::transformed(std::move(*mesh), world.cast<float>());
     mesh->name = name;
-    if (count > 1) mesh->name += "/" + std::to_string(i);
+    if (count > 1) mesh->name += fmt::format("/{}", i);
 
     FinishOptions finish;
     finish.keepAllVertices = options_.keepAllVertices;

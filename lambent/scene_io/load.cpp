@@ -1,0 +1,43 @@
+#include "lambent/scene_io/load.h"
+
+#include <algorithm>
+#include <cctype>
+#include <new>
+#include <string>
+
+#include "lambent/scene_io/gltf_read.h"
+#include "lambent/scene_io/obj.h"
+#include "lambent/scene_io/ply.h"
+
+namespace lambent::scene_io {
+namespace {
+
+Result<LoadedScene> loadByExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  if (extension == ".glb" || extension == ".gltf") {
+    const Result<GltfFile> file = GltfFile::open(path);
+    if (!file) return file.error();
+    Result<LoadedGltf> loaded = loadGltf(*file);
+    if (!loaded) return loaded.error();
+    return std::move(loaded->loaded);
+  }
+  if (extension == ".obj") return loadObj(path);
+  if (extension == ".ply") return loadPly(path);
+  return report::badInput(path.string() +
+                          ": a scene is a .glb, .gltf, .obj or .ply file; convert it to one of "
+                          "these");
+}
+
+}  // namespace
+
+Result<LoadedScene> load(const std::filesystem::path& path) {
+  try {
+    return loadByExtension(path);
+  } catch (const std::bad_alloc&) {
+    return report::failed(path.string() + ": there is not enough memory to read it");
+  }
+}
+
+}  // namespace lambent::scene_io

@@ -1,0 +1,187 @@
+#include "lambent/scene_io/mtl.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "lambent/file/atomic_file.h"
+#include "lambent/scene_io/gltf_material.h"
+#include "lambent/scene_io/image_codec.h"
+#include "lambent/scene_io/text_cursor.h"
+
+namespace lambent::scene_io {
+namespace {
+
+/// One newmtl as the file says it.
+struct Entry {
+  std::string name;
+  std::optional<Rgb> diffuse, specular;
+  std::optional<float> exponent, metallic, roughness;
+  int illumination = 2;
+  std::string diffuseMap;
+  bool transparent = false;
+};
+
+std::optional<Rgb> color(TextCursor& cursor) {
+  const auto r = cursor.number();
+  if (!r) return {};
+  const auto g = cursor.number(), b = cursor.number();
+  const Rgb c = g && b ? Rgb(*r, *g, *b) : Rgb(Rgb::Constant(*r));
+  return c.isFinite().all() ? std::optional<Rgb>(c.max(0.0f).min(1.0f)) : std::nullopt;
+}
+
+/// The file's name behind a map's options ("-s 1 1 1 -clamp on wood.png"): words that begin with a
+/// minus, and the numbers and switches after them, are left out.
+std::string mapName(TextCursor& cursor) {
+  std::string_view rest = cursor.rest();
+  while (!rest.empty() && rest[0] == '-') {
+    TextCursor words(rest);
+    words.nextLine();
+    words.word();
+    for (;;) {
+      const std::string_view after = words.rest();
+      const bool isNumber = words.number().has_value();
+      const std::string_view word = isNumber ? std::string_view() : words.word();
+      if (isNumber || word == "on" || word == "off") continue;
+      rest = after;
+      break;
+    }
+  }
+  std::string name(rest);
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+scene::Material materialOf(const Entry& entry, bool hasMap, Diagnosis& diagnosis) {
+  scene::Material material;
+  material.name = entry.name;
+  Rgb diffuse = entry.diffuse.value_or(hasMap ? Rgb(Rgb::Ones()) : material.diffuse);
+  if (hasMap && diffuse.maxCoeff() <= 0.0f) diffuse = Rgb::Ones();
+  if (entry.metallic || entry.roughness) {
+    MetallicRoughness pbr;
+    pbr.baseColor = diffuse;
+    pbr.metallic = entry.metallic.value_or(0.0f);
+    pbr.roughness = entry.roughness.value_or(0.5f);
+    applyMetallicRoughness(pbr, material);
+    return material;
+  }
+  material.diffuse = diffuse;
+  const Rgb specular = entry.specular.value_or(Rgb::Zero());
+  const bool usual = (specular == 0.5f).all();
+  if (specular.maxCoeff() <= 0.0f || entry.illumination < 2) return material;
+  if (entry.illumination == 3 || entry.illumination == 5) {
+    material.diffuse = Rgb::Zero();
+    material.mirror = specular;
+    return material;
+  }
+  if (usual) {
+    diagnosis.add(Severity::Note, "usual-specular", 1,
+                  "materials have Ks 0.5 0.5 0.5, which exporters write for any surface; they are "
+                  "taken as diffuse",
+                  entry.name);
+    return material;
+  }
+  material.glossy = specular;
+  material.lobeExponent = std::clamp(entry.exponent.value_or(16.0f), 1.0f, 1e4f);
+  const float most = (material.diffuse + material.glossy).maxCoeff();
+  if (most > 1.0f) {
+    material.diffuse /= most;
+    material.glossy /= most;
+    diagnosis.add(Severity::Note, "reflectance-scaled", 1,
+                  "materials reflect more than they receive (Kd + Ks above 1); both were scaled "
+                  "down",
+                  entry.name);
+  }
+  return material;
+}
+
+}  // namespace
+
+int readTextureFile(const std::filesystem::path& path, scene::Scene& scene, Diagnosis& diagnosis) {
+  std::error_code error;
+  Result<scene::Texture> texture = report::badInput(path.string() + " does not exist");
+  if (std::filesystem::is_regular_file(path, error)) {
+    const Result<std::vector<std::byte>> bytes = file::readWhole(path);
+    if (bytes) {
+      texture = decodeImage(*bytes, path.string());
+    } else {
+      texture = bytes.error();
+    }
+  }
+  if (!texture) {
+    diagnosis.add(Severity::Warning, "texture-unreadable", 1,
+                  "base-colour textures could not be read; the colour stands alone",
+                  texture.error().message);
+    return -1;
+  }
+  texture->name = path.filename().string();
+  scene.textures.push_back(std::move(*texture));
+  return int(scene.textures.size() - 1);
+}
+
+void readMtl(const std::filesystem::path& path, scene::Scene& scene,
+             std::map<std::string, int, std::less<>>& known, Diagnosis& diagnosis) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    diagnosis.add(Severity::Warning, "material-file-missing", 1,
+                  "material files do not exist; their materials are grey", path.string());
+    return;
+  }
+  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
+  if (!bytes) {
+    diagnosis.add(Severity::Warning, "material-file-missing", 1,
+                  "material files could not be read; their materials are grey", path.string());
+    return;
+  }
+  std::vector<Entry> entries;
+  TextCursor cursor(asText(*bytes));
+  while (cursor.nextLine()) {
+    const std::string_view key = cursor.word();
+    if (key == "newmtl") {
+      entries.emplace_back();
+      entries.back().name = cursor.rest();
+      continue;
+    }
+    if (entries.empty()) continue;
+    Entry& entry = entries.back();
+    if (key == "Kd") {
+      entry.diffuse = color(cursor);
+    } else if (key == "Ks") {
+      entry.specular = color(cursor);
+    } else if (key == "Ns") {
+      entry.exponent = cursor.number();
+    } else if (key == "Pm") {
+      entry.metallic = cursor.number();
+    } else if (key == "Pr") {
+      entry.roughness = cursor.number();
+    } else if (key == "illum") {
+      const float value = cursor.number().value_or(2.0f);
+      entry.illumination = value >= 0.0f && value <= 10.0f ? int(value) : 2;
+    } else if (key == "map_Kd") {
+      entry.diffuseMap = mapName(cursor);
+    } else if (key == "d") {
+      entry.transparent = cursor.number().value_or(1.0f) < 0.999f;
+    }
+  }
+  std::map<std::string, int> textures;
+  for (const Entry& entry : entries) {
+    int texture = -1;
+    if (!entry.diffuseMap.empty()) {
+      const auto [place, isNew] = textures.try_emplace(entry.diffuseMap, -1);
+      if (isNew) {
+        place->second = readTextureFile(path.parent_path() / entry.diffuseMap, scene, diagnosis);
+      }
+      texture = place->second;
+    }
+    scene::Material material = materialOf(entry, texture >= 0, diagnosis);
+    material.baseColorTexture = texture;
+    if (entry.transparent) {
+      diagnosis.add(Severity::Warning, "alpha-ignored", 1,
+                    "materials are (partly) transparent and are taken as opaque", entry.name);
+    }
+    if (known.try_emplace(entry.name, int(scene.materials.size())).second) {
+      scene.materials.push_back(std::move(material));
+    }
+  }
+}
+
+}  // namespace lambent::scene_io
