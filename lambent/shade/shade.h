@@ -1,12 +1,15 @@
 // Encoded transfer · light on the CPU: the oracle for every GPU path.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "lambent/asset/asset.h"
 #include "lambent/math/types.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/shade/aligned_vector.h"
 
 namespace lambent::shade {
 
@@ -23,8 +26,8 @@ class DiffuseShader {
  private:
   std::size_t receivers_ = 0;
   int bands_ = 0, channels_ = 0;
-  std::vector<float> single_;
-  std::vector<std::uint16_t> half_;
+  AlignedVector<float> single_;
+  AlignedVector<std::uint16_t> half_;
 };
 
 /// Transferred incident radiance M · L of every receiver (eq. 9): [receiver][channel][outBands²].
@@ -37,7 +40,8 @@ struct View {
 };
 
 /// Whole exit radiance of every receiver of a mesh: diffuse and glossy (eq. 12) parts and base
-/// colour. Empty for a mirror.
+/// colour, not clamped: a light that rings is seen to ring. Empty for a mirror. A light of fewer
+/// bands than the asset takes counts as zero beyond; one of more is cut.
 std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t mesh,
                               const sh::RgbCoefficients& light, const View& view = {});
 

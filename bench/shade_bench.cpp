@@ -1,0 +1,122 @@
+// Shading 50,000 receivers on one thread. Each case prints the rate at which whole meshes are
+// shaded (`frames`) and `of_read`: that rate over the one at which this machine, in the same run,
+// merely reads as many bytes of transfer from where they lie.
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <cstring>
+#include <random>
+
+#include "lambent/shade/shade.h"
+
+namespace lambent::shade {
+namespace {
+
+using encode::Encoding;
+
+constexpr std::size_t kReceivers = 50'000;
+
+encode::EncodedMesh mesh(int bands, int channels, int outBands, Encoding encoding) {
+  encode::EncodedMesh mesh;
+  mesh.layout = transport::Layout::Vertices;
+  mesh.positions.assign(kReceivers, Vec3::Zero());
+  mesh.normals.assign(kReceivers, Vec3::UnitZ());
+  std::mt19937 engine(1);
+  const auto numbers = [&](std::size_t count) {
+    std::vector<float> values(count);
+    for (float& x : values) x = float(engine()) / float(1u << 31) - 1.0f;
+    return encode::encode(values, encoding);
+  };
+  if (outBands == 0) {
+    mesh.bands = bands;
+    mesh.channels = channels;
+    mesh.vectors = numbers(kReceivers * channels * sh::coefficientCount(bands));
+  } else {
+    mesh.outBands = outBands;
+    mesh.inBands = bands;
+    mesh.matrixChannels = channels;
+    mesh.matrices = numbers(kReceivers * channels * sh::coefficientCount(outBands) *
+                            sh::coefficientCount(bands));
+  }
+  return mesh;
+}
+
+sh::RgbCoefficients light(int bands) {
+  sh::RgbCoefficients light(bands);
+  for (std::size_t i = 0; i < light.values.size(); ++i) light.values[i] = 1.0f / float(i + 1);
+  return light;
+}
+
+/// Seconds to read `bytes` that were read before, by sums that the compiler turns into vector
+/// loads: the best of some repetitions.
+double readSeconds(std::size_t bytes) {
+  std::vector<std::uint64_t> memory(bytes / 8 + 1, 1);
+  double best = 1e9;
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    const auto start = std::chrono::steady_clock::now();
+    std::uint64_t sums[8] = {};
+    for (std::size_t i = 0; i + 8 <= memory.size(); i += 8)
+      for (int k = 0; k < 8; ++k) sums[k] += memory[i + k];
+    benchmark::DoNotOptimize(sums);
+    best = std::min(
+        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+void report(benchmark::State& state, double seconds, std::size_t bytes) {
+  state.counters["frames"] =
+      benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["of_read"] = readSeconds(bytes) * double(state.iterations()) / seconds;
+  state.SetBytesProcessed(std::int64_t(state.iterations()) * std::int64_t(bytes));
+}
+
+void diffuse(benchmark::State& state, int bands, int channels, Encoding encoding) {
+  const DiffuseShader shader(mesh(bands, channels, 0, encoding));
+  const sh::RgbCoefficients l = light(bands);
+  std::vector<float> out(3 * kReceivers);
+  const auto start = std::chrono::steady_clock::now();
+  for ([[maybe_unused]] auto _ : state) {
+    shader.shade(l, out);
+    benchmark::ClobberMemory();
+  }
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report(state, seconds,
+         kReceivers * channels * sh::coefficientCount(bands) *
+             (encoding == Encoding::Float16 ? 2 : 4));
+}
+
+void glossy(benchmark::State& state, int outBands, int inBands, int channels, Encoding encoding) {
+  const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
+  const encode::EncodedMesh m = mesh(inBands, channels, outBands, encoding);
+  const sh::RgbCoefficients l = light(inBands);
+  const auto start = std::chrono::steady_clock::now();
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(transferredRadiance(m, l).data());
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report(state, seconds,
+         kReceivers * channels * sh::coefficientCount(outBands) * sh::coefficientCount(inBands) *
+             (encoding == Encoding::Float16 ? 2 : 4));
+}
+
+BENCHMARK_CAPTURE(diffuse, 5_bands_grey_half, 5, 1, Encoding::Float16);
+BENCHMARK_CAPTURE(diffuse, 5_bands_grey_single, 5, 1, Encoding::Float32);
+BENCHMARK_CAPTURE(diffuse, 5_bands_rgb_half, 5, 3, Encoding::Float16);
+BENCHMARK_CAPTURE(diffuse, 5_bands_rgb_single, 5, 3, Encoding::Float32);
+BENCHMARK_CAPTURE(diffuse, 3_bands_rgb_half, 3, 3, Encoding::Float16);
+BENCHMARK_CAPTURE(glossy, 25x25_grey_half, 5, 5, 1, Encoding::Float16)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(glossy, 25x25_grey_single, 5, 5, 1, Encoding::Float32)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(glossy, 25x9_grey_half, 5, 3, 1, Encoding::Float16)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(glossy, 25x25_rgb_half, 5, 5, 3, Encoding::Float16)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lambent::shade
+
+BENCHMARK_MAIN();

@@ -1,0 +1,167 @@
+#include "lambent/shade/lit_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lambent/sh/basis.h"
+#include "lambent/sh/zonal.h"
+#include "lambent/shade/shade.h"
+
+namespace lambent::shade {
+
+using scene::Mesh;
+using scene::Scene;
+using scene::Texture;
+
+Receivers Receivers::ofTexels(int width, int height, const Vec2& uv) {
+  struct Taps {
+    std::uint32_t first, second;
+    float weight;  // of the second
+  };
+  const auto taps = [](float coordinate, int size) -> Taps {
+    const float x = std::clamp(coordinate * float(size) - 0.5f, 0.0f, float(size - 1));
+    const auto first = std::uint32_t(x);
+    return {first, std::min(first + 1, std::uint32_t(size - 1)), x - float(first)};
+  };
+  const Taps x = taps(uv.x(), width), y = taps(uv.y(), height);
+  const std::uint32_t top = y.first * width, bottom = y.second * width;
+  return {{top + x.first, top + x.second, bottom + x.first, bottom + x.second},
+          {(1 - y.weight) * (1 - x.weight), (1 - y.weight) * x.weight, y.weight * (1 - x.weight),
+           y.weight * x.weight},
+          4};
+}
+
+Rgb LitMesh::diffuseAt(const Receivers& at) const {
+  Rgb sum = Rgb::Zero();
+  if (diffuse.empty()) return sum;
+  for (int k = 0; k < at.count; ++k) {
+    const float* value = diffuse.data() + std::size_t(at.index[k]) * 3;
+    for (int c = 0; c < 3; ++c) sum[c] += at.weight[k] * value[c];
+  }
+  return sum;
+}
+
+Rgb LitMesh::glossyAt(const Receivers& at, const Vec3& reflected) const {
+  Rgb sum = Rgb::Zero();
+  if (lobe.empty()) return sum;
+  std::array<float, sh::coefficientCount(sh::kMaxBands)> y;
+  sh::evaluate(lobeBands, reflected, y);
+  const int coefficients = sh::coefficientCount(lobeBands);
+  for (int k = 0; k < at.count; ++k) {
+    const float* value = lobe.data() + std::size_t(at.index[k]) * coefficients * 3;
+    float r = 0.0f, g = 0.0f, b = 0.0f;
+    for (int i = 0; i < coefficients; ++i) {
+      r += value[3 * i] * y[i];
+      g += value[3 * i + 1] * y[i];
+      b += value[3 * i + 2] * y[i];
+    }
+    sum += at.weight[k] * Rgb(r, g, b);
+  }
+  return sum;
+}
+
+std::vector<float> lobeFactors(int bands, float exponent) {
+  const sh::ZonalMoments moments = sh::phongLobe(bands, exponent);
+  std::vector<float> factors;
+  for (int i = 0; i < sh::coefficientCount(bands); ++i)
+    factors.push_back(float(moments[sh::bandOf(i)]));
+  return factors;
+}
+
+LitMesh lightMesh(const encode::EncodedMesh& mesh, const sh::RgbCoefficients& light,
+                  std::optional<float> lobeExponent) {
+  LitMesh lit;
+  lit.albedoOutside = mesh.albedo == transport::Albedo::BaseColor;
+  if (!mesh.vectors.empty()) {
+    lit.diffuse.resize(3 * mesh.receiverCount());
+    DiffuseShader(mesh).shade(light, lit.diffuse);
+  }
+  if (!mesh.matrices.empty()) {
+    lit.lobeBands = mesh.outBands;
+    const int rows = sh::coefficientCount(mesh.outBands);
+    const std::vector<float> factors =
+        lobeFactors(mesh.outBands, lobeExponent.value_or(mesh.lobeExponent));
+    const std::vector<float> incident = transferredRadiance(mesh, light);
+    lit.lobe.resize(incident.size());
+    for (std::size_t p = 0; p < mesh.receiverCount(); ++p)
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < rows; ++i)
+          lit.lobe[(p * rows + i) * 3 + c] =
+              mesh.glossy[c] * factors[i] * incident[(p * 3 + c) * rows + i];
+  }
+  return lit;
+}
+
+namespace {
+
+const Texture* baseTexture(const Scene& scene, const Mesh& mesh) {
+  if (mesh.uvs.empty() || mesh.material < 0 || std::size_t(mesh.material) >= scene.materials.size())
+    return nullptr;
+  const int texture = scene.materials[mesh.material].baseColorTexture;
+  if (texture < 0 || std::size_t(texture) >= scene.textures.size()) return nullptr;
+  return &scene.textures[texture];
+}
+
+// Vertex colours at texel centres: each triangle paints the texels whose centres it holds in uv.
+// Texels that no triangle holds (gutters) are dilated copies of neighbours and stay white here.
+std::vector<Rgb> colorsAtTexels(const Mesh& mesh, int width, int height) {
+  std::vector<Rgb> colors(std::size_t(width) * height, Rgb::Ones());
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec2 size(width, height);
+    const Vec2 a = mesh.uvs[i].cwiseProduct(size), b = mesh.uvs[j].cwiseProduct(size),
+               c = mesh.uvs[k].cwiseProduct(size);
+    const auto cross = [](const Vec2& p, const Vec2& q) { return p.x() * q.y() - p.y() * q.x(); };
+    const float area = cross(b - a, c - a);
+    if (!(std::abs(area) > 0.0f)) continue;
+    const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    const int x1 = int(std::clamp(high.x(), 0.0f, float(width - 1)));
+    const int y1 = int(std::clamp(high.y(), 0.0f, float(height - 1)));
+    for (int y = int(std::clamp(low.y(), 0.0f, float(height - 1))); y <= y1; ++y) {
+      for (int x = int(std::clamp(low.x(), 0.0f, float(width - 1))); x <= x1; ++x) {
+        const Vec2 p(x + 0.5f, y + 0.5f);
+        const float u = cross(p - a, c - a) / area, v = cross(b - a, p - a) / area;
+        if (u < 0.0f || v < 0.0f || u + v > 1.0f) continue;
+        colors[std::size_t(y) * width + x] =
+            (1.0f - u - v) * mesh.colors[i] + u * mesh.colors[j] + v * mesh.colors[k];
+      }
+    }
+  }
+  return colors;
+}
+
+}  // namespace
+
+Rgb baseColorAt(const Scene& scene, std::uint32_t meshIndex, std::uint32_t triangle, float u,
+                float v) {
+  const Mesh& mesh = scene.meshes[meshIndex];
+  const auto [i, j, k] = mesh.triangles[triangle];
+  const float w = 1.0f - u - v;
+  Rgb base = Rgb::Ones();
+  if (!mesh.colors.empty()) base = w * mesh.colors[i] + u * mesh.colors[j] + v * mesh.colors[k];
+  if (const Texture* texture = baseTexture(scene, mesh))
+    base *= scene::sampleBaseColor(*texture, w * mesh.uvs[i] + u * mesh.uvs[j] + v * mesh.uvs[k]);
+  return base;
+}
+
+std::vector<Rgb> receiverBaseColors(const Scene& scene, std::uint32_t meshIndex,
+                                    const encode::EncodedMesh& transfer) {
+  const Mesh& mesh = scene.meshes[meshIndex];
+  const Texture* texture = baseTexture(scene, mesh);
+  if (mesh.colors.empty() && !texture) return {};
+  const bool texels = transfer.layout == transport::Layout::Texels;
+  std::vector<Rgb> base;
+  if (mesh.colors.empty())
+    base.assign(transfer.receiverCount(), Rgb::Ones());
+  else
+    base = texels ? colorsAtTexels(mesh, transfer.width, transfer.height) : mesh.colors;
+  if (!texture) return base;
+  for (std::size_t p = 0; p < base.size(); ++p) {
+    const Vec2 uv = texels ? Vec2((p % transfer.width + 0.5f) / transfer.width,
+                                  (p / transfer.width + 0.5f) / transfer.height)
+                           : mesh.uvs[p];
+    base[p] *= scene::sampleBaseColor(*texture, uv);
+  }
+  return base;
+}
+
+}  // namespace lambent::shade

@@ -1,0 +1,60 @@
+// A mesh's transfer after the light was applied, and its evaluation between receivers. What
+// exitRadiance and the CPU picture share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lambent/encode/encoded_field.h"
+#include "lambent/scene/scene.h"
+#include "lambent/sh/coefficients.h"
+
+namespace lambent::shade {
+
+/// Up to four receivers and their weights, which sum to 1: the corners of a triangle, or the four
+/// texels around a point.
+struct Receivers {
+  std::array<std::uint32_t, 4> index{};
+  std::array<float, 4> weight{};
+  int count = 0;
+
+  static Receivers one(std::uint32_t index) { return {{index}, {1.0f}, 1}; }
+  static Receivers ofTriangle(const scene::Triangle& triangle, float u, float v) {
+    return {{triangle[0], triangle[1], triangle[2]}, {1.0f - u - v, u, v}, 3};
+  }
+  /// Bilinear between texel centres, clamped to the edge. uv as glTF has it; row 0 at v = 0.
+  static Receivers ofTexels(int width, int height, const Vec2& uv);
+};
+
+struct LitMesh {
+  std::vector<float> diffuse;  ///< exit radiance M · L, [receiver][3], or empty
+  bool albedoOutside = false;  ///< the diffuse part still lacks the base colour
+  std::vector<float> lobe;     ///< α_i G_i (M L)_i · k, [receiver][coefficient][3], or empty
+  int lobeBands = 0;
+
+  Rgb diffuseAt(const Receivers& at) const;
+  /// Glossy exit radiance (eq. 12) for a mirrored view direction, without the base colour.
+  Rgb glossyAt(const Receivers& at, const Vec3& reflected) const;
+};
+
+LitMesh lightMesh(const encode::EncodedMesh& mesh, const sh::RgbCoefficients& light,
+                  std::optional<float> lobeExponent);
+
+/// α_i G_i for every coefficient: the lobe's moments, each band's for all its coefficients.
+std::vector<float> lobeFactors(int bands, float exponent);
+
+/// v mirrored about the normal; both unit, both pointing away from the surface.
+inline Vec3 mirrored(const Vec3& v, const Vec3& normal) {
+  return 2.0f * normal.dot(v) * normal - v;
+}
+
+/// Base colour (texture × vertex colour, without the material's factors) at a point of a triangle.
+Rgb baseColorAt(const scene::Scene& scene, std::uint32_t mesh, std::uint32_t triangle, float u,
+                float v);
+/// … and at every receiver of a mesh; empty if it is white everywhere.
+std::vector<Rgb> receiverBaseColors(const scene::Scene& scene, std::uint32_t mesh,
+                                    const encode::EncodedMesh& transfer);
+
+}  // namespace lambent::shade

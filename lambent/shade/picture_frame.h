@@ -1,0 +1,20 @@
+// What every maker of pictures from an asset shares: the checks before, the background and the
+// clamp after. So CPU and GL differ in nothing but how they see and shade the surfaces.
+#pragma once
+
+#include "lambent/shade/picture.h"
+
+namespace lambent::shade {
+
+/// Whether scene, transfer, light, camera and options fit together. Bad input names the mesh.
+Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                    const scene::Camera& camera, const PictureOptions& options);
+
+/// `image` holds the mean over the sub-samples of radiance (0 where none met a surface) and their
+/// coverage in alpha. Radiance that a ringing light drove below zero is cut off here, after
+/// averaging: cutting every sub-sample would brighten the antialiased borders of such places. Then
+/// the background, if asked for: its mean over the pixel's sub-samples, weighted by 1 − coverage.
+void finishPicture(image::Image& image, const light::Environment& environment,
+                   const scene::Camera& camera, const PictureOptions& options);
+
+}  // namespace lambent::shade

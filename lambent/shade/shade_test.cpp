@@ -1,0 +1,359 @@
+#include "lambent/shade/shade.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "lambent/sh/basis.h"
+#include "lambent/sh/zonal.h"
+#include "lambent/shade/dispatch.h"
+#include "lambent/shade/lit_mesh.h"
+
+namespace lambent::shade {
+namespace {
+
+using encode::EncodedMesh;
+using encode::Encoding;
+using sh::coefficientCount;
+
+std::vector<float> randomNumbers(std::size_t count, std::uint32_t seed) {
+  std::mt19937 engine(seed);
+  std::vector<float> numbers(count);
+  for (float& x : numbers) x = float(engine()) / float(1u << 31) - 1.0f;
+  return numbers;
+}
+
+sh::RgbCoefficients randomLight(int bands, std::uint32_t seed) {
+  sh::RgbCoefficients light(bands);
+  light.values = randomNumbers(light.values.size(), seed);
+  return light;
+}
+
+struct Shape {
+  std::size_t receivers;
+  int bands, channels;
+  Encoding encoding;
+};
+
+EncodedMesh diffuseMesh(const Shape& shape) {
+  EncodedMesh mesh;
+  mesh.layout = transport::Layout::Vertices;
+  mesh.positions.assign(shape.receivers, Vec3::Zero());
+  mesh.normals.assign(shape.receivers, Vec3::UnitZ());
+  mesh.bands = shape.bands;
+  mesh.channels = shape.channels;
+  mesh.vectors = encode::encode(
+      randomNumbers(shape.receivers * shape.channels * coefficientCount(shape.bands), 7),
+      shape.encoding);
+  return mesh;
+}
+
+std::vector<math::Isa> machineIsas() {
+  std::vector<math::Isa> isas{math::Isa::Baseline};
+  if (math::bestIsa() >= math::Isa::Avx2) isas.push_back(math::Isa::Avx2);
+  if (math::bestIsa() >= math::Isa::Avx512) isas.push_back(math::Isa::Avx512);
+  return isas;
+}
+
+/// M · L the slow way: every number decoded, everything in double.
+std::vector<double> naiveDiffuse(const EncodedMesh& mesh, const sh::RgbCoefficients& light) {
+  const std::vector<float> numbers = encode::decode(mesh.vectors);
+  const int n = coefficientCount(mesh.bands), count = std::min(n, coefficientCount(light.bands));
+  std::vector<double> out;
+  for (std::size_t p = 0; p < mesh.receiverCount(); ++p)
+    for (int c = 0; c < 3; ++c) {
+      double sum = 0;
+      for (int k = 0; k < count; ++k)
+        sum +=
+            double(numbers[(p * mesh.channels + c % mesh.channels) * n + k]) * light.channel(c)[k];
+      out.push_back(sum);
+    }
+  return out;
+}
+
+TEST(DiffuseShader, EqualsTheNaiveDotProduct) {
+  for (const Encoding encoding : {Encoding::Float16, Encoding::Float32})
+    for (const int channels : {1, 3})
+      for (int bands = 1; bands <= 10; ++bands)
+        for (const std::size_t receivers : {1u, 15u, 16u, 33u, 100u}) {
+          const EncodedMesh mesh = diffuseMesh({receivers, bands, channels, encoding});
+          const sh::RgbCoefficients light = randomLight(bands, 3);
+          std::vector<float> out(3 * receivers);
+          DiffuseShader(mesh).shade(light, out);
+          const std::vector<double> expected = naiveDiffuse(mesh, light);
+          for (std::size_t i = 0; i < out.size(); ++i)
+            ASSERT_NEAR(out[i], expected[i], 2e-6 * coefficientCount(bands))
+                << bands << " bands, " << channels << " channels, receiver " << i / 3;
+        }
+}
+
+TEST(DiffuseShader, CutsOrPadsALightOfOtherBands) {
+  for (const int lightBands : {1, 3, 8}) {
+    const EncodedMesh mesh = diffuseMesh({40, 5, 3, Encoding::Float16});
+    const sh::RgbCoefficients light = randomLight(lightBands, 5);
+    std::vector<float> out(3 * 40);
+    DiffuseShader(mesh).shade(light, out);
+    const std::vector<double> expected = naiveDiffuse(mesh, light);
+    for (std::size_t i = 0; i < out.size(); ++i) ASSERT_NEAR(out[i], expected[i], 5e-5);
+  }
+}
+
+TEST(DiffuseShader, IsBlackWithoutDiffuseTransfer) {
+  EncodedMesh mesh = diffuseMesh({3, 2, 1, Encoding::Float32});
+  mesh.vectors = {};
+  std::vector<float> out(9, 1.0f);
+  DiffuseShader(mesh).shade(randomLight(2, 1), out);
+  for (const float x : out) EXPECT_EQ(x, 0.0f);
+}
+
+TEST(Kernels, EveryInstructionSetGivesTheSameDiffuseRadiance) {
+  const int stride = 30, count = 25;
+  const std::size_t blocks = 5;
+  const std::vector<float> light = randomNumbers(3 * count, 1);
+  for (const int channels : {1, 3}) {
+    const std::vector<float> single = randomNumbers(blocks * stride * channels * kBlock, 2);
+    const std::vector<std::uint16_t> half = encode::encode(single, Encoding::Float16).half;
+    const std::vector<float> rounded = encode::decode(encode::encode(single, Encoding::Float16));
+    for (const math::Isa isa : machineIsas()) {
+      std::vector<float> fromHalf(blocks * 3 * kBlock), fromSingle(fromHalf.size());
+      kernelsFor(isa).diffuseHalf(half.data(), blocks, channels, stride, count, light.data(),
+                                  fromHalf.data());
+      kernelsFor(isa).diffuseSingle(single.data(), blocks, channels, stride, count, light.data(),
+                                    fromSingle.data());
+      for (std::size_t i = 0; i < fromHalf.size(); ++i) {
+        const std::size_t block = i / (3 * kBlock), lane = i % (3 * kBlock) / 3;
+        const int c = int(i % 3);
+        double expectedHalf = 0, expectedSingle = 0;
+        for (int k = 0; k < count; ++k) {
+          const std::size_t at = ((block * stride + k) * channels + c % channels) * kBlock + lane;
+          expectedHalf += double(rounded[at]) * light[3 * k + c];
+          expectedSingle += double(single[at]) * light[3 * k + c];
+        }
+        ASSERT_NEAR(fromHalf[i], expectedHalf, 2e-5) << "isa " << int(isa) << " place " << i;
+        ASSERT_NEAR(fromSingle[i], expectedSingle, 2e-5) << "isa " << int(isa) << " place " << i;
+      }
+    }
+  }
+}
+
+TEST(Kernels, EveryInstructionSetDecodesEveryHalf) {
+  // One coefficient and a light of 1: the kernel's output is its input.
+  std::vector<std::uint16_t> halves(1 << 16);
+  for (std::size_t i = 0; i < halves.size(); ++i) halves[i] = std::uint16_t(i);
+  const std::vector<float> expected = encode::decode({Encoding::Float16, halves, {}});
+  const float light[3] = {1.0f, 1.0f, 1.0f};
+  for (const math::Isa isa : machineIsas()) {
+    std::vector<float> out(3 * halves.size());
+    kernelsFor(isa).diffuseHalf(halves.data(), halves.size() / kBlock, 1, 1, 1, light, out.data());
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+      if (std::isnan(expected[i]))
+        ASSERT_TRUE(std::isnan(out[3 * i]));
+      else
+        ASSERT_EQ(out[3 * i], expected[i]) << "half " << i << " isa " << int(isa);
+    }
+  }
+}
+
+EncodedMesh glossyMesh(std::size_t receivers, int outBands, int inBands, int channels,
+                       Encoding encoding) {
+  EncodedMesh mesh;
+  mesh.layout = transport::Layout::Vertices;
+  mesh.positions.assign(receivers, Vec3::Zero());
+  mesh.normals.assign(receivers, Vec3::UnitZ());
+  mesh.outBands = outBands;
+  mesh.inBands = inBands;
+  mesh.matrixChannels = channels;
+  mesh.glossy = Rgb(0.9f, 0.5f, 0.2f);
+  mesh.lobeExponent = 8.0f;
+  mesh.matrices = encode::encode(
+      randomNumbers(receivers * channels * coefficientCount(outBands) * coefficientCount(inBands),
+                    11),
+      encoding);
+  return mesh;
+}
+
+TEST(TransferredRadiance, EqualsTheNaiveMatrixProduct) {
+  for (const Encoding encoding : {Encoding::Float16, Encoding::Float32})
+    for (const int channels : {1, 3})
+      for (const auto& [outBands, inBands] : std::vector<std::pair<int, int>>{
+               {1, 1}, {5, 5}, {5, 3}, {3, 5}, {10, 10}, {4, 4}, {2, 9}})
+        for (const int lightBands : {inBands, 1, 10}) {
+          const std::size_t receivers = 5;
+          const EncodedMesh mesh = glossyMesh(receivers, outBands, inBands, channels, encoding);
+          const sh::RgbCoefficients light = randomLight(lightBands, 9);
+          const std::vector<float> out = transferredRadiance(mesh, light);
+          const std::vector<float> m = encode::decode(mesh.matrices);
+          const int rows = coefficientCount(outBands), columns = coefficientCount(inBands);
+          ASSERT_EQ(out.size(), receivers * 3 * rows);
+          for (std::size_t p = 0; p < receivers; ++p)
+            for (int c = 0; c < 3; ++c)
+              for (int i = 0; i < rows; ++i) {
+                double expected = 0;
+                for (int j = 0; j < std::min(columns, coefficientCount(lightBands)); ++j)
+                  expected += double(m[((p * channels + c % channels) * rows + i) * columns + j]) *
+                              light.channel(c)[j];
+                ASSERT_NEAR(out[(p * 3 + c) * rows + i], expected, 1e-6 * columns + 1e-6)
+                    << outBands << "×" << inBands << " channel " << c << " row " << i;
+              }
+        }
+}
+
+TEST(Kernels, EveryInstructionSetGivesTheSameTransferredRadiance) {
+  const int rows = 25, columns = 9;
+  const std::size_t receivers = 4;
+  for (const int channels : {1, 3}) {
+    const std::vector<float> single = randomNumbers(receivers * channels * rows * columns, 2);
+    const std::vector<std::uint16_t> half = encode::encode(single, Encoding::Float16).half;
+    std::vector<float> light(3 * paddedColumns(columns));
+    for (int c = 0; c < 3; ++c)
+      for (int j = 0; j < columns; ++j) light[c * paddedColumns(columns) + j] = float(c + j) - 3;
+    std::vector<float> scratch(rows * columns + kBlock);
+    std::vector<float> first(receivers * 3 * rows), firstHalf(first.size());
+    const Kernels base = kernelsFor(math::Isa::Baseline);
+    base.matrixSingle(single.data(), receivers, channels, rows, columns, light.data(),
+                      scratch.data(), first.data());
+    base.matrixHalf(half.data(), receivers, channels, rows, columns, light.data(), scratch.data(),
+                    firstHalf.data());
+    for (const math::Isa isa : machineIsas()) {
+      std::vector<float> out(first.size());
+      kernelsFor(isa).matrixSingle(single.data(), receivers, channels, rows, columns, light.data(),
+                                   scratch.data(), out.data());
+      for (std::size_t i = 0; i < out.size(); ++i) ASSERT_NEAR(out[i], first[i], 1e-4);
+      kernelsFor(isa).matrixHalf(half.data(), receivers, channels, rows, columns, light.data(),
+                                 scratch.data(), out.data());
+      for (std::size_t i = 0; i < out.size(); ++i) ASSERT_NEAR(out[i], firstHalf[i], 1e-4);
+    }
+  }
+}
+
+asset::Asset assetOf(EncodedMesh transfer, const scene::Material& material) {
+  asset::Asset asset;
+  asset.scene.materials.push_back(material);
+  scene::Mesh mesh;
+  mesh.positions = transfer.positions;
+  mesh.normals = transfer.normals;
+  asset.scene.meshes.push_back(mesh);
+  asset.transfer.meshes.push_back(std::move(transfer));
+  return asset;
+}
+
+/// A glossy receiver that sees its whole surroundings: the identity as transfer matrix.
+asset::Asset openGlossyPoint(int bands, const Vec3& normal, float exponent) {
+  EncodedMesh mesh = glossyMesh(1, bands, bands, 1, Encoding::Float32);
+  mesh.normals = {normal};
+  mesh.lobeExponent = exponent;
+  const int n = coefficientCount(bands);
+  mesh.matrices.single.assign(std::size_t(n) * n, 0.0f);
+  for (int i = 0; i < n; ++i) mesh.matrices.single[std::size_t(i) * n + i] = 1.0f;
+  scene::Material material;
+  material.diffuse = Rgb::Zero();
+  material.glossy = mesh.glossy;
+  return assetOf(std::move(mesh), material);
+}
+
+// Equation 12 against what it stands for: k ∫ L(s) (r+1)/2π max(0, s·R)^r ds, by quadrature. With
+// the identity for a transfer matrix L is the band-limited light itself.
+TEST(ExitRadiance, GlossyIsTheIntegralOverTheLobe) {
+  const Vec3 normal = Vec3(0.3f, 0.8f, -0.4f).normalized();
+  const Vec3 eye(2.0f, 1.0f, 1.5f);
+  const Vec3d v = eye.cast<double>().normalized(), n = normal.cast<double>();
+  const Vec3d reflected = 2 * n.dot(v) * n - v;
+  for (const int bands : {2, 5, 8})
+    for (const float exponent : {0.0f, 4.0f, 16.0f, 64.0f}) {
+      const asset::Asset asset = openGlossyPoint(bands, normal, 1.0f);
+      const sh::RgbCoefficients light = randomLight(bands, 21);
+      const Rgb out = exitRadiance(asset, 0, light, {eye, exponent})[0];
+
+      // Midpoints in cos θ and azimuth around R; the integrand is smooth on the hemisphere.
+      const Vec3d t = reflected.unitOrthogonal(), b = reflected.cross(t);
+      Eigen::Array3d integral = Eigen::Array3d::Zero();
+      const int zs = 400, phis = 64;
+      for (int i = 0; i < zs; ++i)
+        for (int j = 0; j < phis; ++j) {
+          const double z = (i + 0.5) / zs, phi = 2 * kPi * (j + 0.5) / phis;
+          const double r = std::sqrt(1 - z * z);
+          const Vec3d s = r * std::cos(phi) * t + r * std::sin(phi) * b + z * reflected;
+          const double lobe = (exponent + 1) / (2 * kPi) * std::pow(z, double(exponent));
+          integral += lobe * sh::reconstruct(light, s.cast<float>()).cast<double>();
+        }
+      integral *= 2 * kPi / (double(zs) * phis);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(out[c], asset.transfer.meshes[0].glossy[c] * integral[c], 2e-3)
+            << bands << " bands, exponent " << exponent;
+    }
+}
+
+TEST(ExitRadiance, SeesAlongTheNormalWithoutAnEye) {
+  const Vec3 normal = Vec3(0.3f, 0.8f, -0.4f).normalized();
+  const asset::Asset asset = openGlossyPoint(4, normal, 10.0f);
+  const sh::RgbCoefficients light = randomLight(4, 2);
+  const Rgb along = exitRadiance(asset, 0, light)[0];
+  const Rgb eye = exitRadiance(asset, 0, light, {Vec3(3.0f * normal), {}})[0];
+  EXPECT_TRUE(along.isApprox(eye, 1e-5f));
+}
+
+TEST(ExitRadiance, AppliesTheBaseColourOnlyWhereTheVectorsLackIt) {
+  EncodedMesh mesh = diffuseMesh({3, 2, 1, Encoding::Float32});
+  asset::Asset asset = assetOf(mesh, {});
+  asset.scene.meshes[0].colors = {Rgb(0.5f, 1, 1), Rgb(1, 0.25f, 1), Rgb(1, 1, 0.125f)};
+  const sh::RgbCoefficients light = randomLight(2, 4);
+  std::vector<float> plain(9);
+  DiffuseShader(mesh).shade(light, plain);
+  const std::vector<Rgb> included = exitRadiance(asset, 0, light);
+  asset.transfer.meshes[0].albedo = transport::Albedo::BaseColor;
+  const std::vector<Rgb> outside = exitRadiance(asset, 0, light);
+  for (int p = 0; p < 3; ++p)
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_FLOAT_EQ(included[p][c], plain[3 * p + c]);
+      EXPECT_FLOAT_EQ(outside[p][c], plain[3 * p + c] * asset.scene.meshes[0].colors[p][c]);
+    }
+}
+
+TEST(ExitRadiance, IsEmptyForAMirror) {
+  EncodedMesh none;
+  scene::Material mirror;
+  mirror.mirror = Rgb::Ones();
+  EXPECT_TRUE(exitRadiance(assetOf(none, mirror), 0, randomLight(3, 1)).empty());
+}
+
+// A unit uniform light on an open white diffuse surface leaves radiance 1; on a glossy one with
+// k = 1 too, whatever the lobe: the furnace.
+TEST(ExitRadiance, UniformLightLeavesWithItsOwnRadiance) {
+  sh::RgbCoefficients uniform(5);
+  for (int c = 0; c < 3; ++c) uniform.channel(c)[0] = float(std::sqrt(4 * kPi));
+  const Vec3 normal = Vec3(1, 2, -2) / 3.0f;
+
+  EncodedMesh diffuse = diffuseMesh({1, 5, 1, Encoding::Float32});
+  diffuse.normals = {normal};
+  const sh::ZonalMoments cosine = sh::clampedCosine(5);
+  sh::turnTo(cosine, normal, std::span<float>(diffuse.vectors.single));
+  for (float& x : diffuse.vectors.single) x /= float(kPi);
+  const Rgb out = exitRadiance(assetOf(diffuse, {}), 0, uniform)[0];
+  EXPECT_TRUE(out.isApprox(Rgb::Ones(), 1e-5f));
+
+  asset::Asset glossy = openGlossyPoint(5, normal, 20.0f);
+  glossy.transfer.meshes[0].glossy = Rgb::Ones();
+  EXPECT_TRUE(exitRadiance(glossy, 0, uniform)[0].isApprox(Rgb::Ones(), 1e-5f));
+}
+
+TEST(Receivers, TexelWeightsAreBilinearAndClamped) {
+  const Receivers inside = Receivers::ofTexels(4, 3, Vec2(0.5f, 0.5f));  // between texels 1 and 2
+  EXPECT_EQ(inside.index, (std::array<std::uint32_t, 4>{5, 6, 9, 10}));
+  EXPECT_NEAR(inside.weight[0], 0.5f, 1e-6f);
+  EXPECT_NEAR(inside.weight[1], 0.5f, 1e-6f);
+  EXPECT_NEAR(inside.weight[2] + inside.weight[3], 0.0f, 1e-6f);
+  for (const Vec2& uv : {Vec2(-3, -3), Vec2(7, 9), Vec2(0, 1), Vec2(1, 0)}) {
+    const Receivers at = Receivers::ofTexels(4, 3, uv);
+    float sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_LT(at.index[k], 12u);
+      sum += at.weight[k];
+    }
+    EXPECT_NEAR(sum, 1.0f, 1e-6f);
+  }
+}
+
+}  // namespace
+}  // namespace lambent::shade
