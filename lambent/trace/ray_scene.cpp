@@ -37,7 +37,7 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
-Result<RayScene> RayScene::build(const scene::Scene& scene) {
+Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
   auto impl = std::make_unique<Impl>();
   std::size_t vertexCount = 0, triangleCount = 0;
   for (const scene::Mesh& mesh : scene.meshes) {
@@ -57,6 +57,7 @@ Result<RayScene> RayScene::build(const scene::Scene& scene) {
   impl->device = rtcNewDevice(nullptr);
   if (!impl->device) return embreeError(nullptr, "starting");
   impl->scene = rtcNewScene(impl->device);
+  if (edges == Edges::Watertight) rtcSetSceneFlags(impl->scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));

@@ -21,12 +21,17 @@ struct Hit {
   bool backFace = false;     ///< the ray came from behind the triangle
 };
 
+/// Whether a ray may slip through where two triangles meet. Watertight: never; closed rooms stay
+/// dark to the last bit. Fast: about once in 10⁷ rays; packets of occlusion rays are some 10%
+/// faster, closest hits 4%.
+enum class Edges { Watertight, Fast };
+
 /// An immutable acceleration structure over all meshes of a scene. Triangles are also numbered
 /// through the whole scene ("global"), mesh after mesh; so are vertices. Movable; thread-safe.
 class RayScene {
  public:
   /// Copies what it needs: `scene` need not outlive it. Fails on a scene without triangles.
-  static Result<RayScene> build(const scene::Scene& scene);
+  static Result<RayScene> build(const scene::Scene& scene, Edges edges = Edges::Watertight);
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
   ~RayScene();

@@ -1,0 +1,232 @@
+// Properties of a bake: the same whatever the threads or the memory, linear, coloured, diagnosed.
+#include "lambent/transport/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "lambent/scene/shapes.h"
+#include "lambent/sh/coefficients.h"
+
+namespace lambent::transport {
+namespace {
+
+scene::Material painted(const Rgb& diffuse, const Rgb& glossy = Rgb::Zero()) {
+  scene::Material material;
+  material.diffuse = diffuse;
+  material.glossy = glossy;
+  return material;
+}
+
+/// A red wall, a glossy ball and a mirror over a floor: every kind of surface in one scene.
+scene::Scene mixedScene() {
+  scene::Scene scene;
+  scene::Material mirror;
+  mirror.mirror = Rgb(0.9f, 0.8f, 0.7f);
+  scene::addTo(scene, scene::gridPlane(4, 4, 12, 12), painted(Rgb::Constant(0.7f)));
+  scene::addTo(scene, scene::translated(scene::box(Vec3(0.2f, 2, 4), 6), Vec3(-1.9f, 1, 0)),
+               painted(Rgb(0.8f, 0.1f, 0.1f)));
+  scene::addTo(scene, scene::translated(scene::icosphere(0.5f, 2), Vec3(0, 0.6f, 0)),
+               painted(Rgb::Constant(0.2f), Rgb::Constant(0.6f)));
+  scene::addTo(scene, scene::translated(scene::icosphere(0.4f, 2), Vec3(1, 0.5f, 0.5f)), mirror);
+  return scene;
+}
+
+Result<TransferField> bakeScene(const scene::Scene& scene, const BakeOptions& options,
+                                Findings& findings) {
+  const auto rays = trace::RayScene::build(scene);
+  EXPECT_TRUE(rays);
+  return bake(scene, *rays, options, {}, findings);
+}
+
+BakeOptions small() {
+  BakeOptions options;
+  options.kind = TransferKind::Interreflected;
+  options.directions = 512;
+  options.bands = 3;
+  options.bounces = 2;
+  return options;
+}
+
+void expectSameNumbers(const TransferField& a, const TransferField& b) {
+  ASSERT_EQ(a.meshes.size(), b.meshes.size());
+  EXPECT_EQ(a.passEnergy, b.passEnergy);
+  for (std::size_t m = 0; m < a.meshes.size(); ++m) {
+    EXPECT_EQ(a.meshes[m].vectors, b.meshes[m].vectors);
+    EXPECT_EQ(a.meshes[m].matrices, b.meshes[m].matrices);
+  }
+}
+
+TEST(Bake, IsTheSameAtAnyThreadCount) {
+  Findings findings;
+  BakeOptions options = small();
+  options.threads = 1;
+  const auto one = bakeScene(mixedScene(), options, findings);
+  options.threads = 4;
+  const auto four = bakeScene(mixedScene(), options, findings);
+  ASSERT_TRUE(one && four);
+  expectSameNumbers(*one, *four);
+}
+
+TEST(Bake, IsTheSameWhenHitsDoNotFitAndAreCastAgain) {
+  Findings findings;
+  BakeOptions options = small();
+  const auto kept = bakeScene(mixedScene(), options, findings);
+  options.hitMemory = 0;
+  const auto again = bakeScene(mixedScene(), options, findings);
+  ASSERT_TRUE(kept && again);
+  expectSameNumbers(*kept, *again);
+}
+
+TEST(Bake, SeedsGiveIndependentErrorsOfTheSameSize) {
+  Findings findings;
+  BakeOptions options = small();
+  options.kind = TransferKind::Shadowed;
+  const auto a = bakeScene(mixedScene(), options, findings);
+  options.seed = 1;
+  const auto b = bakeScene(mixedScene(), options, findings);
+  ASSERT_TRUE(a && b);
+  EXPECT_NE(a->meshes[0].vectors, b->meshes[0].vectors);
+  double difference = 0.0, size = 0.0;
+  for (std::size_t k = 0; k < a->meshes[0].vectors.size(); ++k) {
+    difference += std::pow(a->meshes[0].vectors[k] - b->meshes[0].vectors[k], 2);
+    size += std::pow(a->meshes[0].vectors[k], 2);
+  }
+  EXPECT_LT(std::sqrt(difference / size), 0.05);
+}
+
+TEST(Bake, ARedWallBleedsRed) {
+  Findings findings;
+  const auto field = bakeScene(mixedScene(), small(), findings);
+  ASSERT_TRUE(field);
+  const MeshTransfer& floor = field->meshes[0];
+  ASSERT_EQ(floor.channels, 3);
+  // Beside the wall the floor is redder than far from it.
+  const auto redness = [&](float x) {
+    double red = 0.0, blue = 0.0;
+    for (std::size_t r = 0; r < floor.receiverCount(); ++r)
+      if (std::abs(floor.positions[r].x() - x) < 0.2f && std::abs(floor.positions[r].z()) < 1.0f) {
+        red += floor.vectors[(r * 3 + 0) * 9];
+        blue += floor.vectors[(r * 3 + 2) * 9];
+      }
+    return red / blue;
+  };
+  EXPECT_GT(redness(-1.33f), 1.05 * redness(1.9f));
+}
+
+TEST(Bake, EveryKindOfReceiverIsServed) {
+  Findings findings;
+  const auto field = bakeScene(mixedScene(), small(), findings);
+  ASSERT_TRUE(field);
+  EXPECT_FALSE(field->meshes[0].vectors.empty());
+  EXPECT_TRUE(field->meshes[0].matrices.empty());
+  EXPECT_FALSE(field->meshes[2].vectors.empty());
+  EXPECT_EQ(field->meshes[2].matrices.size(), field->meshes[2].receiverCount() * 3 * 9 * 9);
+  EXPECT_EQ(field->meshes[3].layout, Layout::None);
+  ASSERT_EQ(field->passEnergy.size(), 3u);
+  EXPECT_LT(field->passEnergy[2], field->passEnergy[1]);
+  EXPECT_LT(field->passEnergy[1], field->passEnergy[0]);
+}
+
+TEST(Bake, StopsWhenAPassHasLittleEnergy) {
+  Findings findings;
+  BakeOptions options = small();
+  options.bounces = 50;
+  options.energyThreshold = 1e-4;
+  const auto field = bakeScene(mixedScene(), options, findings);
+  ASSERT_TRUE(field);
+  EXPECT_LT(field->bounces, 20);
+  EXPECT_LE(field->passEnergy.back(), 1e-4 * field->passEnergy.front());
+}
+
+TEST(Bake, ColourCostsChannelsOnlyWhereItIsNeeded) {
+  Findings findings;
+  scene::Scene scene;
+  scene::addTo(scene, scene::icosphere(1, 1), painted(Rgb(0.9f, 0.5f, 0.1f)));
+  BakeOptions options = small();
+  options.kind = TransferKind::Shadowed;
+  EXPECT_EQ(bakeScene(scene, options, findings)->meshes[0].channels, 3);
+  scene.materials[0].diffuse = Rgb::Constant(0.5f);
+  EXPECT_EQ(bakeScene(scene, options, findings)->meshes[0].channels, 1);
+}
+
+TEST(Bake, TexelsOfAPlaneAgreeWithVerticesAtTheirCentres) {
+  constexpr int kSide = 8;
+  const auto underBall = [](scene::Mesh plane) {
+    scene::Scene scene;
+    scene::addTo(scene, std::move(plane), painted(Rgb::Constant(0.5f)));
+    scene::addTo(scene, scene::translated(scene::icosphere(0.5f, 2), Vec3(0.3f, 0.8f, 0)),
+                 painted(Rgb::Constant(0.5f)));
+    return scene;
+  };
+  Findings findings;
+  BakeOptions options = small();
+  options.kind = TransferKind::Shadowed;
+  const float inner = 2.0f * (kSide - 1) / kSide;
+  const auto vertices =
+      bakeScene(underBall(scene::gridPlane(inner, inner, kSide - 1, kSide - 1)), options, findings);
+  options.texels = {{0, kSide, kSide}};
+  const auto texels = bakeScene(underBall(scene::gridPlane(2, 2, 1, 1)), options, findings);
+  ASSERT_TRUE(vertices && texels);
+  const MeshTransfer &grid = texels->meshes[0], &points = vertices->meshes[0];
+  ASSERT_EQ(grid.layout, Layout::Texels);
+  std::size_t compared = 0;
+  for (std::size_t t = 0; t < grid.receiverCount(); ++t)
+    for (std::size_t v = 0; v < points.receiverCount(); ++v) {
+      if ((points.positions[v] - grid.positions[t]).norm() > 1e-4f) continue;
+      ++compared;
+      for (int i = 0; i < 9; ++i)
+        EXPECT_NEAR(grid.vectors[t * 9 + i], points.vectors[v * 9 + i], 1e-3);
+    }
+  EXPECT_EQ(compared, grid.receiverCount());
+}
+
+TEST(Bake, TellsOfReceiversInsideAMesh) {
+  scene::Scene scene;
+  scene::addTo(scene, scene::icosphere(1, 2), painted(Rgb::Constant(0.5f)));
+  scene::addTo(scene, scene::icosphere(0.3f, 1), painted(Rgb::Constant(0.5f)));
+  Findings findings;
+  const auto field = bakeScene(scene, small(), findings);
+  ASSERT_TRUE(field);
+  bool told = false;
+  for (const Finding& finding : findings)
+    if (finding.code == "receivers-inside") {
+      told = true;
+      EXPECT_EQ(finding.count, 42u);
+    }
+  EXPECT_TRUE(told);
+  // The ball inside is black, and the one outside is as if there were nothing inside it.
+  for (const float value : field->meshes[1].vectors) EXPECT_EQ(value, 0.0f);
+}
+
+TEST(Bake, RefusesWhatMakesNoSense) {
+  const scene::Scene scene = scene::sceneOf(scene::icosphere(1, 0));
+  Findings findings;
+  for (const auto& spoil : std::vector<std::function<void(BakeOptions&)>>{
+           [](BakeOptions& o) { o.bands = 0; }, [](BakeOptions& o) { o.bands = 11; },
+           [](BakeOptions& o) { o.directions = 3; }, [](BakeOptions& o) { o.bounces = -1; },
+           [](BakeOptions& o) { o.energyThreshold = NAN; },
+           [](BakeOptions& o) {
+             o.texels = {{5, 8, 8}};
+           }}) {
+    BakeOptions options = small();
+    spoil(options);
+    const auto field = bakeScene(scene, options, findings);
+    ASSERT_FALSE(field);
+    EXPECT_EQ(field.error().kind, ErrorKind::BadUsage);
+  }
+}
+
+TEST(Bake, CanBeCancelled) {
+  const scene::Scene scene = mixedScene();
+  const auto rays = trace::RayScene::build(scene);
+  Findings findings;
+  const auto field = bake(
+      scene, *rays, small(), [](const ProgressUpdate&) { return false; }, findings);
+  ASSERT_FALSE(field);
+  EXPECT_EQ(field.error().kind, ErrorKind::Cancelled);
+}
+
+}  // namespace
+}  // namespace lambent::transport

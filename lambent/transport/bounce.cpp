@@ -1,0 +1,161 @@
+// Passes 1, 2, …: light that other surfaces sent on.
+//
+// This work is based on:
+// - sloan2002precomputed: §5, the rules of the interreflection passes
+//     diffuse  (M_p)^b_i  += (ρ_p/π) (1−V_p) (M_q)^{b−1}_i H_N(s_d)
+//     glossy   (M_p)^b_ij += (1−V_p) (Σ_k α_k G_k (M_q)^{b−1}_kj y_k(reflect(−s_d, N_q))) y_i(s_d)
+//
+// Where we deviate, and why. A diffuse q sends its exit vector ρ/π E and a glossy q its lobe
+// towards any p, diffuse or glossy, so that both light each other in one scene; the seed's two
+// rules are the unmixed cases. reflect(v, N) = 2 (N·v) N − v with v = −s_d, the direction from q to
+// p: read so, the rule looks where the mirrored ray goes. The rays are not cast again: hits are
+// kept as six bytes each, and a bounce is a sparse product. A hit takes the light of one corner of
+// the triangle, drawn by its weight (see drawReceiver), instead of blending three: a third of the
+// traffic for an error far below that of the directions.
+#include <algorithm>
+
+#include "lambent/math/directions.h"
+#include "lambent/sh/basis.h"
+#include "lambent/transport/simulation.h"
+
+namespace lambent::transport {
+
+namespace {
+
+/// Adds to exit ([c][n²], doubles) what q's lobe sends along −arrival:
+/// k_q Σ_i ĝ_i y_i(R) M_ij, times weight for each channel.
+void addLobe(const Simulation& simulation, std::uint32_t q, const Vec3& arrival, const Rgb& weight,
+             const PreviousPass& previous, Scratch& scratch, double* exit) {
+  const Receivers& receivers = simulation.receivers;
+  const Vec3 reflected = math::reflectAbout(-arrival, receivers.normals[q]);
+  scratch.outFloat.resize(simulation.outCount);
+  sh::evaluate(simulation.outBands, Vec3(reflected.normalized()),
+               std::span<float>(scratch.outFloat));
+  const float* moments = scratch.lobes.data();
+  for (int l = 0; l < simulation.outBands; ++l)
+    for (int m = -l; m <= l; ++m) scratch.outFloat[sh::index(l, m)] *= moments[l];
+  scratch.ids.resize(simulation.outCount);
+  for (std::uint32_t i = 0; i < simulation.outCount; ++i) scratch.ids[i] = i;
+  scratch.y.assign(simulation.rowStride, 0.0);
+  addRows({previous.matrices + simulation.glossyIndex[q] * simulation.matrixStride(),
+           simulation.rowStride},
+          scratch.ids, scratch.outFloat, scratch.y.data());
+  for (int c = 0; c < simulation.channels; ++c) {
+    const double w = double(weight[c]) * receivers.glossy[q][c];
+    for (std::size_t j = 0; j < simulation.inCount; ++j)
+      exit[c * simulation.inCount + j] += w * scratch.y[c * simulation.inCount + j];
+  }
+}
+
+/// The Legendre moments of q's lobe, kept for as long as the exponent stays the same.
+void prepareLobe(const Simulation& simulation, float exponent, Scratch& scratch) {
+  const std::size_t count = static_cast<std::size_t>(simulation.outBands);
+  if (scratch.lobes.size() == count + 1 && scratch.lobes[count] == exponent) return;
+  const sh::ZonalMoments moments = sh::phongLobe(simulation.outBands, exponent);
+  scratch.lobes.resize(count + 1);
+  for (std::size_t l = 0; l < count; ++l) scratch.lobes[l] = static_cast<float>(moments[l]);
+  scratch.lobes[count] = exponent;
+}
+
+/// All that q sends along −arrival, added to exit.
+void addExit(const Simulation& simulation, std::uint32_t q, const Vec3& arrival, const Rgb& weight,
+             const PreviousPass& previous, Scratch& scratch, double* exit) {
+  if (simulation.isDiffuse(q)) {
+    const float* row = previous.exitRows + q * simulation.rowStride;
+    for (int c = 0; c < simulation.channels; ++c)
+      for (std::size_t j = 0; j < simulation.inCount; ++j)
+        exit[c * simulation.inCount + j] += double(weight[c]) * row[c * simulation.inCount + j];
+  }
+  if (simulation.isGlossy(q)) {
+    prepareLobe(simulation, simulation.receivers.exponents[q], scratch);
+    addLobe(simulation, q, arrival, weight, previous, scratch, exit);
+  }
+}
+
+/// A receiver without a matrix needs no exits one by one: rows are summed where they lie.
+void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
+                      const ReceiverHits& hits, const PreviousPass& previous, Gathered& gathered,
+                      Scratch& scratch) {
+  const Vec3& normal = simulation.receivers.normals[receiver];
+  const auto weight = static_cast<float>(simulation.directions.weight());
+  const bool allDiffuse = simulation.glossyCount == 0;
+  scratch.weights.resize(hits.receiver.size());
+  for (std::size_t h = 0; h < hits.receiver.size(); ++h)
+    scratch.weights[h] = weight * normal.dot(simulation.directions[hits.direction[h]]);
+  // Rows of receivers that are not diffuse are zero: they need no exception here.
+  addRows({previous.exitRows, simulation.rowStride}, hits.receiver, scratch.weights,
+          gathered.incident.data());
+  if (!allDiffuse)
+    for (std::size_t h = 0; h < hits.receiver.size(); ++h) {
+      const std::uint32_t q = hits.receiver[h];
+      if (!simulation.isGlossy(q)) continue;
+      const float w = weight * normal.dot(simulation.directions[hits.direction[h]]);
+      prepareLobe(simulation, simulation.receivers.exponents[q], scratch);
+      addLobe(simulation, q, simulation.directions[hits.direction[h]], Rgb::Constant(w), previous,
+              scratch, gathered.incident.data());
+    }
+  for (const MirroredHit& hit : hits.mirrored) {
+    const float w = weight * normal.dot(simulation.directions[hit.direction]);
+    addExit(simulation, hit.receiver, hit.arrival, w * hit.throughput, previous, scratch,
+            gathered.incident.data());
+  }
+}
+
+/// A receiver with a matrix (and perhaps a vector): exits X and harmonics Y of all hits, then YᵀX.
+void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
+                      const ReceiverHits& hits, const PreviousPass& previous, Gathered& gathered,
+                      Scratch& scratch) {
+  const Vec3& normal = simulation.receivers.normals[receiver];
+  const auto weight = static_cast<float>(simulation.directions.weight());
+  const bool diffuse = simulation.isDiffuse(receiver);
+  constexpr std::size_t kBatch = 256;
+  const std::size_t total = hits.receiver.size() + hits.mirrored.size();
+  const std::size_t outStride = simulation.outTable->rows().stride;
+  scratch.exits.resize(kBatch * (simulation.rowStride + outStride));
+  float* exits = scratch.exits.data();
+  float* harmonics = exits + kBatch * simulation.rowStride;
+  scratch.wide.resize(std::max(scratch.wide.size(), simulation.rowStride));
+  for (std::size_t begin = 0; begin < total; begin += kBatch) {
+    const std::size_t count = std::min(kBatch, total - begin);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t h = begin + k;
+      const bool straight = h < hits.receiver.size();
+      const MirroredHit* mirrored = straight ? nullptr : &hits.mirrored[h - hits.receiver.size()];
+      const std::uint32_t direction = straight ? hits.direction[h] : mirrored->direction;
+      double* exit = scratch.wide.data();
+      std::fill_n(exit, simulation.rowStride, 0.0);
+      if (straight)
+        addExit(simulation, hits.receiver[h], simulation.directions[direction], Rgb::Ones(),
+                previous, scratch, exit);
+      else
+        addExit(simulation, mirrored->receiver, mirrored->arrival, mirrored->throughput, previous,
+                scratch, exit);
+      for (std::size_t j = 0; j < simulation.rowStride; ++j)
+        exits[k * simulation.rowStride + j] = static_cast<float>(exit[j]);
+      const float* y = simulation.outTable->row(direction);
+      for (std::size_t i = 0; i < simulation.outCount; ++i)
+        harmonics[k * outStride + i] = weight * y[i];
+      if (diffuse) {
+        const double w = double(weight) * normal.dot(simulation.directions[direction]);
+        for (std::size_t j = 0; j < simulation.rowStride; ++j) gathered.incident[j] += w * exit[j];
+      }
+    }
+    addOuterProducts({harmonics, outStride}, simulation.outCount, {exits, simulation.rowStride},
+                     count, gathered.matrix.data(), simulation.rowStride);
+  }
+}
+
+}  // namespace
+
+void gatherBounce(const Simulation& simulation, std::uint32_t receiver, const ReceiverHits& hits,
+                  const PreviousPass& previous, Gathered& gathered, Scratch& scratch) {
+  std::fill(gathered.incident.begin(), gathered.incident.end(), 0.0);
+  if (simulation.isGlossy(receiver)) {
+    std::fill(gathered.matrix.begin(), gathered.matrix.end(), 0.0f);
+    gatherIntoMatrix(simulation, receiver, hits, previous, gathered, scratch);
+  } else {
+    gatherIntoVector(simulation, receiver, hits, previous, gathered, scratch);
+  }
+}
+
+}  // namespace lambent::transport

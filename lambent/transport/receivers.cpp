@@ -1,0 +1,193 @@
+#include "lambent/transport/receivers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lambent/scene/diagnose.h"
+
+namespace lambent::transport {
+
+namespace {
+
+void add(Receivers& receivers, const scene::SurfacePoint& point, const Vec3& origin) {
+  receivers.positions.push_back(point.position);
+  receivers.origins.push_back(origin);
+  receivers.normals.push_back(point.normal);
+  receivers.diffuse.push_back(point.diffuse);
+  receivers.glossy.push_back(point.glossy);
+  receivers.exponents.push_back(point.lobeExponent);
+}
+
+constexpr std::uint32_t kNobody = 0xffffffffu;
+
+/// Every empty texel takes the receiver of a nearest full one: rings of breadth-first search over
+/// the eight neighbours, each texel choosing among its neighbours' full texels by distance.
+void dilate(Receivers::PerMesh& grid) {
+  const int width = grid.width, height = grid.height;
+  std::vector<std::int32_t> source(grid.receiverOfTexel.size(), -1);  // the full texel it copies
+  std::vector<std::int32_t> front, next;
+  for (std::int32_t t = 0; t < width * height; ++t)
+    if (grid.receiverOfTexel[t] != kNobody) source[t] = t, front.push_back(t);
+  const auto forNeighbours = [&](std::int32_t t, const auto& visit) {
+    const int x = t % width, y = t / width;
+    for (int ny = std::max(0, y - 1); ny <= std::min(height - 1, y + 1); ++ny)
+      for (int nx = std::max(0, x - 1); nx <= std::min(width - 1, x + 1); ++nx)
+        visit(ny * width + nx);
+  };
+  const auto squaredDistance = [&](std::int32_t a, std::int32_t b) {
+    const std::int64_t dx = a % width - b % width, dy = a / width - b / width;
+    return dx * dx + dy * dy;
+  };
+  while (!front.empty()) {
+    next.clear();
+    for (const std::int32_t t : front)
+      forNeighbours(t, [&](std::int32_t n) {
+        if (source[n] < 0) source[n] = source[t], next.push_back(n);
+      });
+    for (const std::int32_t t : next)
+      forNeighbours(t, [&](std::int32_t n) {
+        if (source[n] >= 0 && squaredDistance(source[n], t) < squaredDistance(source[t], t))
+          source[t] = source[n];
+      });
+    front.swap(next);
+  }
+  for (std::size_t t = 0; t < source.size(); ++t)
+    grid.receiverOfTexel[t] = grid.receiverOfTexel[source[t]];
+}
+
+Status placeTexels(const scene::Scene& scene, const TexelGrid& asked, float offset,
+                   Receivers& receivers) {
+  const scene::Mesh& mesh = scene.meshes[asked.mesh];
+  Receivers::PerMesh& grid = receivers.meshes[asked.mesh];
+  if (Status sound = scene::checkUvs(mesh, asked.width, asked.height); !sound) return sound.error();
+  grid.layout = Layout::Texels;
+  grid.width = asked.width, grid.height = asked.height;
+  grid.receiverOfTexel.assign(std::size_t(asked.width) * asked.height, kNobody);
+  grid.covered.assign(grid.receiverOfTexel.size(), 0);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Eigen::Vector2d p[3];
+    for (int k = 0; k < 3; ++k) {
+      const Vec2& uv = mesh.uvs[mesh.triangles[t][k]];
+      p[k] =
+          Eigen::Vector2d(double(uv.x()) * asked.width - 0.5, double(uv.y()) * asked.height - 0.5);
+    }
+    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+      return a.x() * b.y() - a.y() * b.x();
+    };
+    const double area = cross(p[1] - p[0], p[2] - p[0]);
+    if (area == 0.0) continue;
+    const auto low = [&](int axis) { return std::min({p[0][axis], p[1][axis], p[2][axis]}); };
+    const auto high = [&](int axis) { return std::max({p[0][axis], p[1][axis], p[2][axis]}); };
+    const int x0 = std::max(0, static_cast<int>(std::ceil(low(0) - 1e-6)));
+    const int x1 = std::min(asked.width - 1, static_cast<int>(std::floor(high(0) + 1e-6)));
+    const int y0 = std::max(0, static_cast<int>(std::ceil(low(1) - 1e-6)));
+    const int y1 = std::min(asked.height - 1, static_cast<int>(std::floor(high(1) + 1e-6)));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const Eigen::Vector2d at(x, y);
+        const double u = cross(at - p[0], p[2] - p[0]) / area;
+        const double v = cross(p[1] - p[0], at - p[0]) / area;
+        if (u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9) continue;
+        std::uint32_t& place = grid.receiverOfTexel[std::size_t(y) * asked.width + x];
+        if (place != kNobody) continue;
+        place = static_cast<std::uint32_t>(receivers.size());
+        grid.covered[std::size_t(y) * asked.width + x] = 1;
+        const scene::SurfacePoint point =
+            scene::surfaceAt(scene, asked.mesh, t, static_cast<float>(u), static_cast<float>(v));
+        add(receivers, point, point.position + offset * point.normal);
+      }
+  }
+  dilate(grid);
+  return Status::ok();
+}
+
+/// For every vertex a vector of length ≤ 1 in the surface that points from the border of its
+/// triangles to their middle: zero within a smooth patch, inwards at an edge. A vertex of a wall's
+/// edge stands on the next wall too, and rays that start exactly on a surface may slip through it:
+/// lifting the origin off its own wall alone would let light in along every edge of a room.
+std::vector<Vec3> inwardDirections(const scene::Mesh& mesh) {
+  std::vector<Vec3> inward(mesh.positions.size(), Vec3::Zero());
+  std::vector<float> weight(mesh.positions.size(), 0.0f);
+  for (const scene::Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = (mesh.positions[t[(k + 1) % 3]] - mesh.positions[t[k]]).normalized();
+      const Vec3 b = (mesh.positions[t[(k + 2) % 3]] - mesh.positions[t[k]]).normalized();
+      const float angle = std::acos(std::clamp(a.dot(b), -1.0f, 1.0f));
+      inward[t[k]] += angle * (a + b);
+      weight[t[k]] += 2.0f * angle;
+    }
+  for (std::size_t v = 0; v < inward.size(); ++v) {
+    if (!(weight[v] > 0.0f)) continue;
+    inward[v] /= weight[v];
+    const Vec3& normal = mesh.normals[v];
+    inward[v] -= inward[v].dot(normal) * normal;
+  }
+  return inward;
+}
+
+}  // namespace
+
+bool Receivers::anyGlossy() const {
+  return std::any_of(meshes.begin(), meshes.end(), [](const PerMesh& m) { return m.isGlossy; });
+}
+
+Result<Receivers> placeReceivers(const scene::Scene& scene, std::span<const TexelGrid> texels,
+                                 float offset) {
+  Receivers receivers;
+  receivers.meshes.resize(scene.meshes.size());
+  for (const TexelGrid& asked : texels) {
+    if (asked.mesh >= scene.meshes.size())
+      return report::badUsage("a texel grid is asked for mesh " + std::to_string(asked.mesh) +
+                              " of " + std::to_string(scene.meshes.size()));
+    if (asked.width < 1 || asked.height < 1 || asked.width > 16384 || asked.height > 16384)
+      return report::badUsage("a texel grid must have 1 to 16384 texels a side");
+  }
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    const scene::Mesh& mesh = scene.meshes[m];
+    const scene::Material& material = scene.materials[mesh.material];
+    Receivers::PerMesh& place = receivers.meshes[m];
+    place.first = static_cast<std::uint32_t>(receivers.size());
+    if (material.isMirror()) continue;
+    place.isGlossy = material.isGlossy();
+    place.isDiffuse = material.isDiffuse() || !place.isGlossy;  // black is a diffuse material too
+    const auto asked = std::find_if(texels.begin(), texels.end(),
+                                    [&](const TexelGrid& grid) { return grid.mesh == m; });
+    if (asked != texels.end()) {
+      if (Status placed = placeTexels(scene, *asked, offset, receivers); !placed)
+        return placed.error();
+    } else {
+      place.layout = Layout::Vertices;
+      const std::vector<Vec3> inward = inwardDirections(mesh);
+      for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        const scene::SurfacePoint point = scene::surfaceAtVertex(scene, m, v);
+        add(receivers, point, point.position + offset * (point.normal + inward[v]));
+      }
+    }
+    place.count = static_cast<std::uint32_t>(receivers.size()) - place.first;
+  }
+  return receivers;
+}
+
+std::uint32_t drawReceiver(const scene::Scene& scene, const Receivers& receivers,
+                           std::uint32_t mesh, std::uint32_t triangle, float u, float v, float u1,
+                           float u2) {
+  const Receivers::PerMesh& place = receivers.meshes[mesh];
+  const scene::Triangle& corners = scene.meshes[mesh].triangles[triangle];
+  if (place.layout == Layout::Vertices) {
+    const float w = 1.0f - u - v;
+    return place.first + corners[u1 < w ? 0 : (u1 < w + u ? 1 : 2)];
+  }
+  const std::vector<Vec2>& uvs = scene.meshes[mesh].uvs;
+  const Vec2 uv = (1.0f - u - v) * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]];
+  const auto cell = [](float coordinate, int count, float random) {
+    const float at = coordinate * static_cast<float>(count) - 0.5f;
+    const float below = std::floor(at);
+    const int index = static_cast<int>(below) + (random < at - below ? 1 : 0);
+    return std::clamp(index, 0, count - 1);
+  };
+  const int x = cell(uv.x(), place.width, u1), y = cell(uv.y(), place.height, u2);
+  return place.receiverOfTexel[std::size_t(y) * place.width + x];
+}
+
+}  // namespace lambent::transport

@@ -1,0 +1,51 @@
+// Where transfer is recorded: the vertices of a mesh, or the texels of a grid over its UVs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
+#include "lambent/transport/bake.h"
+#include "lambent/transport/transfer_field.h"
+
+namespace lambent::transport {
+
+/// All receivers of a scene, numbered through; mirrors have none.
+struct Receivers {
+  std::vector<Vec3> positions, normals;  ///< world space, unit normals
+  std::vector<Vec3> origins;             ///< where rays start: off the surface, away from its edges
+  std::vector<Rgb> diffuse, glossy;      ///< reflectances with the base colour applied
+  std::vector<float> exponents;
+
+  struct PerMesh {
+    Layout layout = Layout::None;
+    std::uint32_t first = 0, count = 0;  ///< its receivers are first … first + count − 1
+    int width = 0, height = 0;           ///< Texels
+    /// Texels: for every texel the receiver that speaks for it (the nearest covered one).
+    std::vector<std::uint32_t> receiverOfTexel;
+    std::vector<std::uint8_t> covered;  ///< Texels: whether the texel's centre lies on the surface
+    bool isDiffuse = false, isGlossy = false;
+  };
+  std::vector<PerMesh> meshes;
+
+  std::size_t size() const { return positions.size(); }
+  bool anyGlossy() const;
+};
+
+/// BadInput where texels are asked for and the UVs are missing, outside the unit square, or
+/// overlap.
+/// `offset`: how far origins are lifted off, trace::RayScene::offset().
+Result<Receivers> placeReceivers(const scene::Scene& scene, std::span<const TexelGrid> texels,
+                                 float offset);
+
+/// The receiver that stands for a point of a surface: one of the corners of its triangle (or of
+/// the four texels around it), drawn in proportion to the weights of linear interpolation. An
+/// average over many points converges to the interpolated value, with one look-up a point.
+/// u1 and u2 in [0, 1). Its mesh must have receivers.
+std::uint32_t drawReceiver(const scene::Scene& scene, const Receivers& receivers,
+                           std::uint32_t mesh, std::uint32_t triangle, float u, float v, float u1,
+                           float u2);
+
+}  // namespace lambent::transport

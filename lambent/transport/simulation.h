@@ -1,0 +1,94 @@
+// Private to this room: what every pass of a bake looks at, and the shapes of its accumulators.
+//
+// Accumulators. Let n = bands of the light, N = bands of glossy rows, c = channels.
+//  - E, "incident vector" of a diffuse receiver: [c][n²], the transfer vector without ρ/π;
+//    exit radiance is ρ/π E · L.
+//  - M, matrix of a glossy receiver: N² rows of [c][n²] each, so that one row is shaped like an E.
+// Both row lengths are padded to rowStride floats.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lambent/sh/product.h"
+#include "lambent/sh/zonal.h"
+#include "lambent/transport/bake.h"
+#include "lambent/transport/direction_tables.h"
+#include "lambent/transport/hits.h"
+#include "lambent/transport/receivers.h"
+
+namespace lambent::transport {
+
+struct Simulation {
+  const scene::Scene& scene;
+  const trace::RayScene& rays;
+  const Receivers& receivers;
+  const trace::DirectionSet& directions;
+  BakeOptions options;
+
+  int channels = 1;
+  int inBands = 5, outBands = 5;
+  std::size_t inCount = 25, outCount = 25;  ///< n², N²
+  std::size_t rowStride = 32;
+
+  DirectionTable inTable;                     ///< y of n bands
+  std::unique_ptr<DirectionTable> outTable;   ///< y of N bands, if anything is glossy
+  std::unique_ptr<DirectionTable> wideTable;  ///< y of n+N−1 bands, if anything is glossy
+  sh::ZonalMoments cosine;                    ///< n bands
+  sh::ZonalMoments hemisphere;                ///< n+N−1 bands
+
+  std::vector<std::uint32_t> glossyIndex;  ///< receiver → its matrix, or kNoMatrix
+  std::size_t glossyCount = 0;
+
+  static constexpr std::uint32_t kNoMatrix = 0xffffffffu;
+
+  Simulation(const scene::Scene& scene, const trace::RayScene& rays, const Receivers& receivers,
+             const trace::DirectionSet& directions, const BakeOptions& options, int channels);
+
+  std::size_t matrixStride() const { return outCount * rowStride; }
+  bool isGlossy(std::uint32_t receiver) const { return glossyIndex[receiver] != kNoMatrix; }
+  bool isDiffuse(std::uint32_t receiver) const { return diffuseReceiver_[receiver] != 0; }
+
+ private:
+  std::vector<std::uint8_t> diffuseReceiver_;
+};
+
+/// What one receiver gathers in one pass. `incident` is E; `matrix` is M. Sized by the simulation.
+struct Gathered {
+  std::vector<double> incident;
+  std::vector<float> matrix;
+  explicit Gathered(const Simulation& simulation)
+      : incident(simulation.rowStride), matrix(simulation.matrixStride()) {}
+};
+
+/// Room to work in, one for each thread.
+struct Scratch {
+  trace::CastResult cast;
+  ReceiverHits hits;
+  std::vector<MirrorEscape> escapes;
+  std::vector<std::uint32_t> ids;
+  std::vector<float> weights;
+  std::vector<double> wide, y;
+  std::vector<float> exits, lobes, outFloat, inFloat;
+  HitCounts counts;
+};
+
+/// Unshadowed transfer in closed form: E_i = Â_l y_i(N); M = identity, for T_GU knows no horizon.
+void gatherUnshadowed(const Simulation& simulation, std::uint32_t receiver, Gathered& gathered,
+                      Scratch& scratch);
+
+/// Pass 0 from scratch.cast (and scratch.escapes, where there are mirrors).
+void gatherDirect(const Simulation& simulation, std::uint32_t receiver, Gathered& gathered,
+                  Scratch& scratch);
+
+/// The light that pass b−1 left on all receivers: exit rows ρ/π E (rowStride each), matrices M.
+struct PreviousPass {
+  const float* exitRows;
+  const float* matrices;
+};
+
+/// Pass b ≥ 1 from `hits`.
+void gatherBounce(const Simulation& simulation, std::uint32_t receiver, const ReceiverHits& hits,
+                  const PreviousPass& previous, Gathered& gathered, Scratch& scratch);
+
+}  // namespace lambent::transport
