@@ -3,9 +3,9 @@
 // - press2007numerical: §6.7, the recurrence over l of normalised Legendre functions at fixed m,
 //   which is stable; the constants are in legendre_table.h.
 //
-// We keep the recurrence in single precision as well, unrolled with constants known at compile
-// time. Expanded polynomials in z are no faster, and cancel: at l = 9 they lose two digits near the
-// poles.
+// In single precision the recurrence is unrolled, its constants known at compile time. Up to 5
+// bands polynomials in z are as accurate, and are evaluated four at a time; further up they cancel
+// (at l = 9 two digits are lost near the poles), and the recurrence does not.
 #include "lambent/sh/basis.h"
 
 #include <cassert>

@@ -12,8 +12,9 @@ namespace lambent::sh {
 /// out.size() ≥ bands².
 void evaluate(int bands, const Vec3d& direction, std::span<double> out);
 
-/// All n² basis functions at a unit direction, in single precision, by generated polynomials for
-/// bands 1 … 10. out.size() ≥ bands². This is the fast one: a few nanoseconds for 5 bands.
+/// All n² basis functions at a unit direction, in single precision, by code made at compile time
+/// for each of bands 1 … 10. out.size() ≥ bands². This is the fast one: a few nanoseconds for 5
+/// bands.
 void evaluate(int bands, const Vec3& direction, std::span<float> out);
 
 /// Σ_i f_i y_i(direction).

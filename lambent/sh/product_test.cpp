@@ -156,6 +156,26 @@ TEST(Product, FollowsTheTensor) {
   }
 }
 
+TEST(Product, KernelsOfEveryInstructionSetAgree) {
+  // Any rings will do to compare kernels.
+  std::vector<ProductKernels> kernels{baseline::productKernels()};
+#if defined(__x86_64__)
+  if (math::bestIsa() != math::Isa::Baseline) kernels.push_back(avx2::productKernels());
+  if (math::bestIsa() == math::Isa::Avx512) kernels.push_back(avx512::productKernels());
+#endif
+  for (int bands = 1; bands <= kMaxBands; ++bands) {
+    std::vector<float> rings(std::size_t(productLanes(bands)) * bands * (bands + 1));
+    for (std::size_t i = 0; i < rings.size(); ++i) rings[i] = 0.2f * float(std::sin(double(i)));
+    const std::vector<float> a = randomFunction(bands, 1), b = randomFunction(bands, 2);
+    std::vector<float> expected(a.size()), c(a.size());
+    kernels[0].forBands[bands](rings.data(), a.data(), b.data(), expected.data());
+    for (const ProductKernels& k : kernels) {
+      k.forBands[bands](rings.data(), a.data(), b.data(), c.data());
+      for (std::size_t i = 0; i < c.size(); ++i) EXPECT_NEAR(c[i], expected[i], 1e-5) << bands;
+    }
+  }
+}
+
 TEST(Product, IsTheProjectionOfTheProduct) {
   const std::vector<float> a = randomFunction(5, 1), b = randomFunction(5, 2);
   std::vector<float> c(25);

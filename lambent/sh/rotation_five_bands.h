@@ -94,9 +94,15 @@ inline void swapAxes(Function& f) {
 template <>
 void rotateFixed<5>(const float* q, const float* in, float* out) {
   const ZyzTurns turns = zyzTurns(q);
-  // The multiples of all three angles at once; a Newton step puts them onto the circle first.
-  V4 c = {turns.cosine[0], turns.cosine[1], turns.cosine[2], 1};
-  V4 s = {turns.sine[0], turns.sine[1], turns.sine[2], 0};
+  const float c2Gamma = turns.cosine2Gamma, s2Gamma = turns.sine2Gamma;
+  const V4 low = {turns.cosine[0], turns.sine[0], c2Gamma, s2Gamma};
+  const V4 high = low * c2Gamma + __builtin_shufflevector(low, low, 1, 0, 3, 2) *
+                                      V4{-s2Gamma, s2Gamma, -s2Gamma, s2Gamma};
+  const LaneTurn gamma(__builtin_shufflevector(low, high, 0, 2, 4, 6),
+                       __builtin_shufflevector(low, high, 1, 3, 5, 7));
+  // The multiples of the other two at once; a Newton step puts them onto the circle first.
+  V4 c = {turns.cosine[1], turns.cosine[2], 0, 0};
+  V4 s = {turns.sine[1], turns.sine[2], 0, 0};
   const V4 scale = 1.5f - 0.5f * (c * c + s * s);
   c *= scale;
   s *= scale;
@@ -107,16 +113,10 @@ void rotateFixed<5>(const float* q, const float* in, float* out) {
   const V4 c34 = __builtin_shufflevector(c3, c4, 0, 4, 1, 5);
   const V4 s12 = __builtin_shufflevector(s, s2, 0, 4, 1, 5);
   const V4 s34 = __builtin_shufflevector(s3, s4, 0, 4, 1, 5);
-  const LaneTurn gamma(__builtin_shufflevector(c12, c34, 0, 1, 4, 5),
-                       __builtin_shufflevector(s12, s34, 0, 1, 4, 5));
-  const LaneTurn beta(__builtin_shufflevector(c12, c34, 2, 3, 6, 7),
-                      __builtin_shufflevector(s12, s34, 2, 3, 6, 7));
-  const V4 c12Alpha = __builtin_shufflevector(c, c2, 2, 6, 3, 7);
-  const V4 c34Alpha = __builtin_shufflevector(c3, c4, 2, 6, 3, 7);
-  const V4 s12Alpha = __builtin_shufflevector(s, s2, 2, 6, 3, 7);
-  const V4 s34Alpha = __builtin_shufflevector(s3, s4, 2, 6, 3, 7);
-  const LaneTurn alpha(__builtin_shufflevector(c12Alpha, c34Alpha, 0, 1, 4, 5),
-                       __builtin_shufflevector(s12Alpha, s34Alpha, 0, 1, 4, 5));
+  const LaneTurn beta(__builtin_shufflevector(c12, c34, 0, 1, 4, 5),
+                      __builtin_shufflevector(s12, s34, 0, 1, 4, 5));
+  const LaneTurn alpha(__builtin_shufflevector(c12, c34, 2, 3, 6, 7),
+                       __builtin_shufflevector(s12, s34, 2, 3, 6, 7));
 
   const V4 at1 = load(in + 1), at5 = load(in + 5), at9 = load(in + 9);
   const V4 at12 = load(in + 12), at16 = load(in + 16);

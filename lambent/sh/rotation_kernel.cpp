@@ -10,8 +10,9 @@
 // function's parities under x, y and z are kept or swapped by S, so each row of S has an entry in
 // every second column of one sign of m only: a quarter of the block.
 //
-// The angles never appear, only their cosines and sines. γ comes from the matrix after Z(−α) is
-// taken off it, so that near β = 0 and π, where α alone means nothing, the error in α is made good.
+// The angles never appear, only their cosines and sines. γ is that of the matrix's last row; α
+// comes from the matrix after Z(γ) is taken off it, so that near β = 0 and π, where γ alone means
+// nothing, what is wrong with γ is made good.
 #include "lambent/sh/rotation_kernel.h"
 
 #include "lambent/sh/rotation_tables.h"
@@ -91,16 +92,20 @@ inline void swapAxes(const float* f, float* out, Integers<L...>) {
 /// Cosines and sines of the three turns about z: γ, −β and α.
 struct ZyzTurns {
   float cosine[3], sine[3];
+  float cosine2Gamma, sine2Gamma;  ///< of 2γ
 };
 
-/// The turns of the rotation q (column-major), off the circle by what q is off a rotation.
+/// The turns of the rotation q (column-major). γ is on the circle, the others off it by what q is
+/// off a rotation. Everything waits for γ, so γ and 2γ wait for no more than a root or a division.
 inline ZyzTurns zyzTurns(const float* q) {
-  const float x = q[6], y = q[7], sine2 = x * x + y * y;
+  const float x = -q[2], y = q[5], sine2 = x * x + y * y;  // (cos γ, sin γ) · sin β
   const bool tilted = sine2 > 1e-20f;
-  const float sine = tilted ? __builtin_sqrtf(sine2) : 0, inverse = tilted ? 1 / sine : 0;
-  const float cosAlpha = tilted ? x * inverse : 1, sinAlpha = y * inverse;
-  return {{cosAlpha * q[4] - sinAlpha * q[3], q[8], cosAlpha},
-          {cosAlpha * q[1] - sinAlpha * q[0], -sine, sinAlpha}};
+  const float sine = tilted ? __builtin_sqrtf(sine2) : 0, inverse2 = tilted ? 1 / sine2 : 0;
+  const float cosGamma = tilted ? x * (sine * inverse2) : 1, sinGamma = y * (sine * inverse2);
+  return {{cosGamma, q[8], q[1] * sinGamma + q[4] * cosGamma},
+          {sinGamma, -sine, -(q[0] * sinGamma + q[3] * cosGamma)},
+          tilted ? (x * x - y * y) * inverse2 : 1,
+          2 * (x * y) * inverse2};
 }
 
 /// (c, s) a hair off the circle, back onto it: one Newton step for 1/√(c² + s²).
@@ -113,7 +118,8 @@ inline void ontoCircle(float& c, float& s) {
 template <int Bands>
 void rotateFixed(const float* q, const float* in, float* out) {
   ZyzTurns t = zyzTurns(q);
-  for (int i = 0; i < 3; ++i) ontoCircle(t.cosine[i], t.sine[i]);
+  ontoCircle(t.cosine[1], t.sine[1]);
+  ontoCircle(t.cosine[2], t.sine[2]);
   float f[Bands * Bands], g[Bands * Bands];
   for (int i = 0; i < Bands * Bands; ++i) f[i] = in[i];
   turnAboutZ(Turn<Bands>(t.cosine[0], t.sine[0]), f);

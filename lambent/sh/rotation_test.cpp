@@ -5,10 +5,12 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "lambent/math/isa.h"
 #include "lambent/math/random.h"
 #include "lambent/math/sequences.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/projection.h"
+#include "lambent/sh/rotation_kernel.h"
 #include "lambent/sh/zonal.h"
 
 namespace lambent::sh {
@@ -157,6 +159,35 @@ TEST(Rotation, OfOneVectorFollowsTheMatrixToOneInAMillion) {
     EXPECT_LT(worst, 1e-6) << bands << " bands";
     RecordProperty("worst" + std::to_string(bands), std::to_string(worst * 1e9));
   }
+}
+
+TEST(Rotation, KernelsOfEveryInstructionSetAgree) {
+  std::vector<RotationKernels> kernels{baseline::rotationKernels()};
+#if defined(__x86_64__)
+  if (math::bestIsa() != math::Isa::Baseline) kernels.push_back(avx2::rotationKernels());
+  if (math::bestIsa() == math::Isa::Avx512) kernels.push_back(avx512::rotationKernels());
+#endif
+  for (int bands = 1; bands <= kMaxBands; ++bands) {
+    const std::vector<float> f = randomFunction(bands, 3);
+    const Mat3 q = math::randomRotation(std::uint64_t(bands));
+    std::vector<float> expected(f.size()), g(f.size());
+    kernels[0].forBands[bands](q.data(), f.data(), expected.data());
+    for (const RotationKernels& k : kernels) {
+      k.forBands[bands](q.data(), f.data(), g.data());
+      for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(g[i], expected[i], 6e-7) << bands;
+    }
+  }
+}
+
+TEST(Rotation, OfAMatrixSlightlyOffKeepsTheNorm) {
+  // Products of rotations in single precision drift off by a few units in the last place.
+  const Mat3 q = math::randomRotation(4) * 1.00002f;
+  const std::vector<float> f = randomFunction(5, 3);
+  std::vector<float> g(25);
+  rotate(5, q, f, g);
+  double square = 0;
+  for (float v : g) square += double(v) * v;
+  EXPECT_NEAR(square, 1, 1e-6);
 }
 
 TEST(Rotation, KeepsTheNormAndTheFunction) {

@@ -201,17 +201,20 @@ std::vector<double> minimalRinging(const RgbCoefficients& f) {
   }
   if (channels.empty()) return laplacianWindow(f.bands, 0);
   double lambda = 0;
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < 30; ++round) {
     lambda = leastLambda(channels, f.bands);
     if (lambda >= kMaxLambda) return meanOnly;
     const std::vector<double> window = laplacianWindow(f.bands, lambda);
-    double least = 0;
-    for (Channel& channel : channels)
+    bool holds = true;
+    for (Channel& channel : channels) {
+      // Against the mean, which no window changes: the peak of what is left is no less.
+      const double tolerance = 1e-7 * double(channel.f[0]) / std::sqrt(4 * kPi);
       for (const Minimum& minimum : refinedMinima(channel, window, peak)) {
-        least = std::min(least, minimum.value);
+        if (minimum.value < -tolerance) holds = false;
         if (minimum.value < 0) channel.add(minimum.direction);
       }
-    if (least >= -1e-8 * peak) break;
+    }
+    if (holds) break;
   }
   return laplacianWindow(f.bands, lambda);
 }
