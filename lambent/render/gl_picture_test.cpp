@@ -1,0 +1,248 @@
+// The GL picture against the CPU's. Both sample the same places of every pixel, so inside a surface
+// they differ by rounding alone; at silhouettes by whether a sample right on an edge is in.
+
+#include "lambent/render/gl_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "lambent/image/io.h"
+#include "lambent/radiometry/tone.h"
+#include "lambent/render/batches.h"
+#include "lambent/render/gl_picture_in_blocks.h"
+#include "lambent/shade/test_assets.h"
+
+namespace lambent::render {
+namespace {
+
+using encode::Encoding;
+using image::Image;
+using shade::PictureOptions;
+using shade::test::cameraAt;
+
+constexpr std::size_t kAll = std::size_t(1) << 40;
+
+PictureOptions small(int samples) {
+  PictureOptions options;
+  options.width = 128;
+  options.height = 96;
+  options.samples = samples;
+  return options;
+}
+
+/// As a PNG would hold it, in units of 1/255.
+Rgb codeValues(const Rgb& toneMapped) {
+  return 255.0f * toneMapped.unaryExpr([](float x) { return radiometry::srgbEncode(x); });
+}
+
+struct Difference {
+  double mean = 0;      ///< of all pixels and channels, in 1/255 after the tone curve
+  double interior = 0;  ///< the 99th percentile of what lies wholly on surfaces
+  double alpha = 0;     ///< mean
+};
+
+Difference difference(const Image& a, const Image& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  const Image ta = radiometry::toneMap(a, 0.0f, radiometry::ToneCurve::Filmic);
+  const Image tb = radiometry::toneMap(b, 0.0f, radiometry::ToneCurve::Filmic);
+  Difference result;
+  std::vector<double> interior;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      const Rgb d = (codeValues(ta.at(x, y)) - codeValues(tb.at(x, y))).abs();
+      result.mean += d.mean();
+      const std::size_t i = std::size_t(y) * a.width + x;
+      if (!a.alpha.empty()) {
+        result.alpha += std::abs(a.alpha[i] - b.alpha[i]);
+        if (a.alpha[i] == 1.0f && b.alpha[i] == 1.0f) interior.push_back(d.maxCoeff());
+      }
+    }
+  result.mean /= double(a.pixels.size());
+  result.alpha /= double(a.pixels.size());
+  if (!interior.empty()) {
+    std::sort(interior.begin(), interior.end());
+    result.interior = interior[interior.size() * 99 / 100];
+  }
+  return result;
+}
+
+/// LAMBENT_TEST_PICTURES=DIR in the environment: where to leave the pictures to look at.
+void keep(const Image& image, const std::string& name) {
+  const char* directory = std::getenv("LAMBENT_TEST_PICTURES");
+  if (!directory) return;
+  const auto path = std::filesystem::path(directory) / (name + ".png");
+  EXPECT_TRUE(image::write(radiometry::toneMap(image, 0.0f, radiometry::ToneCurve::Filmic), path));
+}
+
+/// Both pictures, and what they must have in common.
+void expectAgreement(const std::string& name, const asset::Asset& asset,
+                     const scene::Camera& camera, const PictureOptions& options,
+                     std::size_t largestBlock = kAll) {
+  const light::Environment sky = shade::test::sky();
+  const sh::RgbCoefficients light = sky.project(5);
+  const Result<Image> cpu = shade::picture(asset, light, sky, camera, options);
+  ASSERT_TRUE(cpu) << cpu.error().message;
+  const Result<Image> gl = pictureInBlocks(asset, light, sky, camera, options, largestBlock);
+  ASSERT_TRUE(gl) << gl.error().message;
+  keep(*cpu, name + "-cpu");
+  keep(*gl, name + "-gl");
+  const Difference d = difference(*cpu, *gl);
+  testing::Test::RecordProperty("mean", std::to_string(d.mean));
+  testing::Test::RecordProperty("interior", std::to_string(d.interior));
+  EXPECT_LT(d.mean, 0.05) << name;
+  EXPECT_LT(d.interior, 0.05) << name;
+  EXPECT_LT(d.alpha, 5e-4) << name;
+  Rgb brightest = Rgb::Zero();
+  for (const Rgb& pixel : gl->pixels) brightest = brightest.max(pixel);
+  EXPECT_GT(brightest.minCoeff(), 0.05f) << name << " is black";
+}
+
+const scene::Camera kCamera = cameraAt(Vec3(1.5f, 1.8f, 5.0f), Vec3::Zero());
+
+TEST(GlPicture, DiffuseAtVertices) {
+  for (const Encoding encoding : {Encoding::Float16, Encoding::Float32})
+    for (const int channels : {1, 3})
+      for (const int bands : {3, 5}) {
+        asset::Asset asset;
+        shade::test::addDiffuse(asset, shade::test::sphere(Vec3::Zero(), 1.4f, 12),
+                                {bands, channels, encoding, false});
+        expectAgreement("diffuse-" + std::to_string(channels) + "-" + std::to_string(bands) +
+                            (encoding == Encoding::Float16 ? "-half" : "-single"),
+                        asset, kCamera, small(2));
+      }
+}
+
+TEST(GlPicture, TexturedWithTheBaseColourOutside) {
+  asset::Asset asset;
+  scene::Mesh mesh = shade::test::sphere(Vec3::Zero(), 1.4f, 12);
+  for (Vec2& uv : mesh.uvs) uv = 1.7f * uv - Vec2(0.4f, 0.3f);  // across both wrapping rules
+  for (const Vec3& p : mesh.positions) mesh.colors.emplace_back(1.0f, 0.7f + 0.2f * p.y(), 0.9f);
+  shade::test::addDiffuse(asset, mesh, {4, 3, Encoding::Float16, true});
+  expectAgreement("textured", asset, kCamera, small(4));
+}
+
+TEST(GlPicture, TexelGrid) {
+  asset::Asset asset;
+  shade::test::addTexels(asset, shade::test::floor(Vec3::Zero(), 1.6f), Vec3::UnitY(), 16, 11, 0,
+                         Encoding::Float16);
+  expectAgreement("texels", asset, kCamera, small(4));
+}
+
+TEST(GlPicture, GlossyAtVerticesAndTexels) {
+  asset::Asset asset;
+  shade::test::addGlossy(asset, shade::test::sphere(Vec3(-1, 0.7f, 0), 0.7f, 12), 5, 4, 1,
+                         Encoding::Float16);
+  shade::test::addGlossy(asset, shade::test::sphere(Vec3(1, 0.7f, 0), 0.7f, 8), 7, 5, 3,
+                         Encoding::Float32);
+  shade::test::addTexels(asset, shade::test::floor(Vec3::Zero(), 2.0f), Vec3::UnitY(), 16, 12, 4,
+                         Encoding::Float32);
+  expectAgreement("glossy", asset, kCamera, small(4));
+
+  PictureOptions sharper = small(1);
+  sharper.lobeExponent = 50.0f;
+  expectAgreement("glossy-50", asset, kCamera, sharper);
+}
+
+TEST(GlPicture, MirrorAndBackground) {
+  asset::Asset asset;
+  shade::test::addMirror(asset, shade::test::sphere(Vec3(-0.8f, 0, 0), 0.8f, 24),
+                         Rgb(0.9f, 0.8f, 0.7f));
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3(1, 0, 0), 0.7f, 12), {});
+  expectAgreement("mirror", asset, kCamera, small(4));
+  PictureOptions options = small(4);
+  options.background = true;
+  expectAgreement("mirror-background", asset, kCamera, options);
+}
+
+TEST(GlPicture, OrthographicAndTurnedCameras) {
+  asset::Asset asset;
+  shade::test::addGlossy(asset, shade::test::sphere(Vec3::Zero(), 1.0f, 12), 4, 4, 1,
+                         Encoding::Float32);
+  shade::test::addTexels(asset, shade::test::floor(Vec3(0, -1, 0), 1.6f), Vec3::UnitY(), 16, 16, 0,
+                         Encoding::Float16);
+  scene::Camera orthographic = kCamera;
+  orthographic.orthographicHalfHeight = 2.2f;
+  expectAgreement("orthographic", asset, orthographic, small(4));
+  // From below: the floor shows its back.
+  expectAgreement("below", asset, cameraAt(Vec3(3, -2.5f, 3), Vec3::Zero()), small(4));
+}
+
+TEST(GlPicture, FallsIntoBlocksWithoutSeams) {
+  asset::Asset asset;
+  shade::test::addGlossy(asset, shade::test::sphere(Vec3(-1, 0.7f, 0), 0.7f, 12), 5, 4, 1,
+                         Encoding::Float16);
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3(1, 0.7f, 0), 0.7f, 12),
+                          {5, 3, Encoding::Float32, true});
+  shade::test::addTexels(asset, shade::test::floor(Vec3::Zero(), 2.0f), Vec3::UnitY(), 16, 12, 4,
+                         Encoding::Float32);
+  expectAgreement("blocks", asset, kCamera, small(2), 12'000);
+}
+
+TEST(GlPicture, SaysWhatDoesNotFit) {
+  asset::Asset asset;
+  shade::test::addTexels(asset, shade::test::floor(Vec3::Zero(), 2.0f), Vec3::UnitY(), 16, 12, 4,
+                         Encoding::Float32);
+  const light::Environment sky = shade::test::sky();
+  const auto result =
+      pictureInBlocks(asset, sky.project(4), sky, kCamera, small(1), 16 * 4 * 4 * 12);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::Failed);
+  EXPECT_NE(result.error().message.find("16×12 texels"), std::string::npos);
+
+  PictureOptions none = small(1);
+  none.width = 0;
+  const auto bad = render::picture(asset, sky.project(4), sky, kCamera, none);
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().kind, ErrorKind::BadUsage);
+}
+
+TEST(GlPicture, StopsWhenAsked) {
+  asset::Asset asset;
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3::Zero(), 1.0f, 6), {});
+  const light::Environment sky = shade::test::sky();
+  int calls = 0;
+  const auto result = render::picture(asset, sky.project(5), sky, kCamera, small(16),
+                              [&](const ProgressUpdate&) { return ++calls < 3; });
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::Cancelled);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(Batches, HoldEveryTriangleOnceWithinTheirLimits) {
+  const scene::Mesh mesh = shade::test::sphere(Vec3::Zero(), 1.0f, 12);
+  const std::vector<TriangleBatch> batches = splitTriangles(mesh, 40, 30);
+  EXPECT_GT(batches.size(), 10u);
+  std::vector<scene::Triangle> seen;
+  for (const TriangleBatch& batch : batches) {
+    EXPECT_LE(batch.vertices.size(), 40u);
+    EXPECT_LE(batch.corners.size(), 90u);
+    for (std::size_t i = 0; i < batch.corners.size(); i += 3)
+      seen.push_back({batch.vertices[batch.corners[i]], batch.vertices[batch.corners[i + 1]],
+                      batch.vertices[batch.corners[i + 2]]});
+  }
+  EXPECT_EQ(seen, mesh.triangles);
+}
+
+TEST(Batches, RowBandsCoverTheGrid) {
+  for (const std::size_t most : {20u, 35u, 70u, 1000u}) {
+    const std::vector<RowBand> bands = splitRows(10, 13, most);
+    ASSERT_FALSE(bands.empty());
+    int next = 0;
+    for (const RowBand& band : bands) {
+      EXPECT_EQ(band.begin, next);
+      EXPECT_LT(band.begin, band.end);
+      EXPECT_EQ(band.last, std::min(band.end, 12));
+      EXPECT_LE(std::size_t(band.last - band.begin + 1) * 10, most);
+      next = band.end;
+    }
+    EXPECT_EQ(next, 13);
+  }
+  EXPECT_TRUE(splitRows(10, 13, 19).empty());
+}
+
+}  // namespace
+}  // namespace lambent::render
