@@ -35,6 +35,10 @@ namespace {
 
 using Imath::Box2i;
 
+// DWAB spends some 240 bytes on 256 lines of a constant picture, however wide: a black 2048²
+// picture has 2,100 pixels a byte, a black 16384² one eight times that.
+constexpr size_t kMaxPixelsPerByte = 65536;
+
 class MemoryInput : public Imf::IStream {
  public:
   MemoryInput(Bytes bytes, const char* name) : Imf::IStream(name), bytes_(bytes) {}
@@ -131,7 +135,8 @@ Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::stri
   Windows w{header.dataWindow(), header.displayWindow(), {}};
   for (const Box2i& box : {w.data, w.display}) {
     if (Status sane = checkSize(static_cast<long long>(box.max.x) - box.min.x + 1,
-                                static_cast<long long>(box.max.y) - box.min.y + 1, fileBytes, name);
+                                static_cast<long long>(box.max.y) - box.min.y + 1, fileBytes, name,
+                                kMaxPixelsPerByte);
         !sane) {
       return sane.error();
     }
@@ -148,50 +153,84 @@ Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::stri
   return w;
 }
 
-// Reads whole lines of the data window, a strip at a time, and keeps what the picture shows.
-void readParts(Imf::InputPart& part, const Channels& channels, const Windows& w, Image& image) {
-  const int dataWidth = w.data.max.x - w.data.min.x + 1;
-  constexpr int kStripLines = 256;  // DWAB packs as many into one block
-  const int planes = channels.alpha.empty() ? 3 : 4;
-  std::array<std::vector<float>, 4> plane;
-  for (int p = 0; p < planes; ++p) {
-    plane[p].resize(size_t(dataWidth) * std::min(kStripLines, w.common.max.y - w.common.min.y + 1));
+/// Reads whole lines of the data window into planes, a strip at a time.
+class StripReader {
+ public:
+  StripReader(Imf::InputPart& part, const Channels& channels, const Windows& windows, int lines)
+      : part_(part),
+        channels_(channels),
+        left_(windows.data.min.x),
+        width_(windows.data.max.x - windows.data.min.x + 1) {
+    for (std::vector<float>& plane : planes_) plane.resize(size_t(width_) * lines);
+    if (grey()) planes_[1].clear(), planes_[2].clear();
+    if (channels.alpha.empty()) planes_[3].clear();
   }
-  // Grey asks for one channel; a name may stand only once in a frame buffer.
-  const bool grey = channels.colour[0] == channels.colour[1];
-  for (int top = w.common.min.y; top <= w.common.max.y; top += kStripLines) {
-    const int bottom = std::min(top + kStripLines - 1, w.common.max.y);
+
+  void read(int top, int bottom) {
     Imf::FrameBuffer frame;
-    for (int p = 0; p < planes; ++p) {
-      if (grey && (p == 1 || p == 2)) continue;
-      char* const origin = reinterpret_cast<char*>(plane[p].data()) -
-                           (std::ptrdiff_t(top) * dataWidth + w.data.min.x) *
-                               static_cast<std::ptrdiff_t>(sizeof(float));
-      frame.insert(p < 3 ? channels.colour[p] : channels.alpha,
-                   Imf::Slice(Imf::FLOAT, origin, sizeof(float), sizeof(float) * dataWidth, 1, 1,
+    for (int p = 0; p < 4; ++p) {
+      if (planes_[p].empty()) continue;
+      char* const origin =
+          reinterpret_cast<char*>(planes_[p].data()) -
+          (std::ptrdiff_t(top) * width_ + left_) * static_cast<std::ptrdiff_t>(sizeof(float));
+      frame.insert(p < 3 ? channels_.colour[p] : channels_.alpha,
+                   Imf::Slice(Imf::FLOAT, origin, sizeof(float), sizeof(float) * width_, 1, 1,
                               p < 3 ? 0.0 : 1.0));
     }
-    part.setFrameBuffer(frame);
-    part.readPixels(top, bottom);
+    part_.setFrameBuffer(frame);
+    part_.readPixels(top, bottom);
+    top_ = top;
+  }
+  Rgb colour(int x, int y) const {
+    const size_t i = at(x, y);
+    if (grey()) return Rgb::Constant(planes_[0][i]);
+    return Rgb(planes_[0][i], planes_[1][i], planes_[2][i]);
+  }
+  float alpha(int x, int y) const { return planes_[3][at(x, y)]; }
+
+ private:
+  /// Grey asks for one channel: a name may stand only once in a frame buffer.
+  bool grey() const { return channels_.colour[0] == channels_.colour[1]; }
+  size_t at(int x, int y) const { return size_t(y - top_) * width_ + (x - left_); }
+
+  Imf::InputPart& part_;
+  const Channels& channels_;
+  int left_, width_, top_ = 0;
+  std::array<std::vector<float>, 4> planes_;
+};
+
+Image readColour(Imf::InputPart& part, const Channels& channels, const Windows& w) {
+  // The first line alone before memory is taken for all: most files that lie about their size fail
+  // here.
+  StripReader(part, channels, w, 1).read(w.common.min.y, w.common.min.y);
+  Image image(w.width(), w.height());
+  if (!channels.alpha.empty()) image.alpha.assign(image.pixels.size(), 0.0f);
+  constexpr int kStripLines = 256;  // DWAB packs as many into one block
+  StripReader strip(part, channels, w, std::min(kStripLines, w.common.max.y - w.common.min.y + 1));
+  for (int top = w.common.min.y; top <= w.common.max.y; top += kStripLines) {
+    const int bottom = std::min(top + kStripLines - 1, w.common.max.y);
+    strip.read(top, bottom);
     for (int y = top; y <= bottom; ++y) {
       for (int x = w.common.min.x; x <= w.common.max.x; ++x) {
-        const size_t from = size_t(y - top) * dataWidth + (x - w.data.min.x);
         const size_t to = size_t(y - w.display.min.y) * image.width + (x - w.display.min.x);
-        for (int c = 0; c < 3; ++c) image.pixels[to][c] = plane[grey ? 0 : c][from];
-        if (planes == 4) image.alpha[to] = plane[3][from];
+        image.pixels[to] = strip.colour(x, y);
+        if (!channels.alpha.empty()) image.alpha[to] = strip.alpha(x, y);
       }
     }
   }
+  return image;
 }
 
 // Luminance and subsampled chroma: the library upsamples and converts, in half precision.
-void readChroma(MemoryInput& input, const Windows& w, Image& image) {
+Image readChroma(MemoryInput& input, const Channels& channels, const Windows& w) {
   input.seekg(0);
   Imf::RgbaInputFile file(input);
-  const int dataWidth = w.data.max.x - w.data.min.x + 1;
-  std::vector<Imf::Rgba> line(dataWidth);
+  std::vector<Imf::Rgba> line(w.data.max.x - w.data.min.x + 1);
+  file.setFrameBuffer(line.data() - w.data.min.x, 1, 0);
+  file.readPixels(w.common.min.y);  // as above: before memory is taken
+  Image image(w.width(), w.height());
+  if (!channels.alpha.empty()) image.alpha.assign(image.pixels.size(), 0.0f);
   for (int y = w.common.min.y; y <= w.common.max.y; ++y) {
-    file.setFrameBuffer(line.data() - w.data.min.x, 1, 0);
     file.readPixels(y);
     for (int x = w.common.min.x; x <= w.common.max.x; ++x) {
       const Imf::Rgba& pixel = line[x - w.data.min.x];
@@ -200,6 +239,7 @@ void readChroma(MemoryInput& input, const Windows& w, Image& image) {
       if (!image.alpha.empty()) image.alpha[to] = pixel.a;
     }
   }
+  return image;
 }
 
 Result<Image> readChecked(Bytes bytes, std::string_view name) {
@@ -220,12 +260,7 @@ Result<Image> readChecked(Bytes bytes, std::string_view name) {
                             ": has neither channels R, G, B nor Y in its first part; save it with "
                             "colour channels");
   }
-  Image image(windows->width(), windows->height());
-  if (!channels->alpha.empty()) image.alpha.assign(image.pixels.size(), 0.0f);
-  if (channels->chroma) {
-    readChroma(input, *windows, image);
-    return image;
-  }
+  if (channels->chroma) return readChroma(input, *channels, *windows);
   for (const std::string& channel :
        {channels->colour[0], channels->colour[1], channels->colour[2], channels->alpha}) {
     const Imf::Channel* const found =
@@ -236,8 +271,7 @@ Result<Image> readChecked(Bytes bytes, std::string_view name) {
     }
   }
   Imf::InputPart part(file, 0);
-  readParts(part, *channels, *windows, image);
-  return image;
+  return readColour(part, *channels, *windows);
 }
 
 /// One channel's pixels in the type that goes to the file.

@@ -23,17 +23,14 @@ Result<std::vector<std::byte>> writeExr(const Image& image, std::string_view nam
 std::vector<std::byte> writeHdr(const Image& image);
 Result<std::vector<std::byte>> writePng(const Image& image, std::string_view name);
 
-/// DWAB spends some 240 bytes on 256 lines of a constant picture, however wide: a black 2048²
-/// picture has 2,100 pixels a byte, a black 16384² one eight times that.
-inline constexpr size_t kMaxPixelsPerByte = 65536;
-
 bool isExr(Bytes bytes);
 bool isHdr(Bytes bytes);
 bool isPng(Bytes bytes);
 bool isJpeg(Bytes bytes);
 
 /// Refuses sizes that are not positive, beyond kMaxPixels, or more than the file can hold even if
-/// every byte of it stood for kMaxPixelsPerByte pixels: the check before memory is taken.
-Status checkSize(long long width, long long height, size_t fileBytes, std::string_view name);
+/// every byte of it stood for `pixelsPerByte` pixels: the check before memory is taken.
+Status checkSize(long long width, long long height, size_t fileBytes, std::string_view name,
+                 size_t pixelsPerByte);
 
 }  // namespace lambent::image::formats

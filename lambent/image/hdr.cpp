@@ -21,6 +21,9 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
+// A line of one colour in old runs: 16 bytes for 65536 pixels; in new ones 8 bytes for 127.
+constexpr size_t kMaxPixelsPerByte = 4096;
+
 /// The stretch of the file that is not read yet.
 class Cursor {
  public:
@@ -257,7 +260,9 @@ Result<Image> readHdr(Bytes bytes, std::string_view name) {
   Cursor file(bytes, name);
   const Result<Header> header = readHeader(file, name);
   if (!header) return header.error();
-  if (Status sane = checkSize(header->width(), header->height(), bytes.size(), name); !sane) {
+  if (Status sane =
+          checkSize(header->width(), header->height(), bytes.size(), name, kMaxPixelsPerByte);
+      !sane) {
     return sane.error();
   }
   Image image(header->width(), header->height());

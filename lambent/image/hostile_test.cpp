@@ -57,7 +57,7 @@ TEST_F(HostileFiles, CutOffAnywhere) {
 TEST_F(HostileFiles, BytesChanged) {
   for (const Bytes& whole : examples()) {
     Sequence sequence(whole.size());
-    for (int trial = 0; trial < 1500; ++trial) {
+    for (int trial = 0; trial < 600; ++trial) {
       Bytes bytes = whole;
       const int changes = 1 + static_cast<int>(sequence.bits() % 4);
       for (int i = 0; i < changes; ++i) {

@@ -29,7 +29,8 @@ Result<std::vector<std::byte>> encode(const Image& image, const std::filesystem:
 
 namespace formats {
 
-Status checkSize(long long width, long long height, size_t fileBytes, std::string_view name) {
+Status checkSize(long long width, long long height, size_t fileBytes, std::string_view name,
+                 size_t pixelsPerByte) {
   const std::string size = std::to_string(width) + "×" + std::to_string(height);
   if (width <= 0 || height <= 0) {
     return report::badInput(std::string(name) + ": its header says " + size +
@@ -40,7 +41,7 @@ Status checkSize(long long width, long long height, size_t fileBytes, std::strin
     return report::badInput(std::string(name) + ": its header says " + size +
                             " pixels; the most that can be read are " + std::to_string(limit));
   }
-  if (static_cast<size_t>(width * height) / kMaxPixelsPerByte > fileBytes) {
+  if (static_cast<size_t>(width * height) / pixelsPerByte > fileBytes) {
     return report::badInput(std::string(name) + ": its header says " + size +
                             " pixels, which cannot come out of " + std::to_string(fileBytes) +
                             " bytes; the file is damaged or cut off");

@@ -35,6 +35,10 @@ namespace lambent::image {
 namespace formats {
 namespace {
 
+// Deflate makes at most 1032 bytes of one, eight 1-bit pixels each; a progressive JPEG scan skips
+// 32767 blocks of 64 pixels in three bytes, but its first scan spends a bit on every block.
+constexpr size_t kMaxPixelsPerByte = 16384;
+
 constexpr std::array<unsigned char, 8> kPngMagic{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 Error damaged(std::string_view name, const std::string& what, size_t at) {
@@ -78,8 +82,8 @@ Status checkPng(Bytes bytes, std::string_view name) {
     }
     if (first) {
       if (type != "IHDR" || length != 13) return damaged(name, "the header is missing", at);
-      if (Status sane =
-              checkSize(bigEndian(bytes, at + 8), bigEndian(bytes, at + 12), bytes.size(), name);
+      if (Status sane = checkSize(bigEndian(bytes, at + 8), bigEndian(bytes, at + 12), bytes.size(),
+                                  name, kMaxPixelsPerByte);
           !sane) {
         return sane;
       }
@@ -110,7 +114,8 @@ Status checkJpeg(Bytes bytes, std::string_view name) {
         marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (startOfFrame && length >= 8) {
       const std::uint32_t size = bigEndian(bytes, at + 5);
-      if (Status sane = checkSize(size & 0xffff, size >> 16, bytes.size(), name); !sane)
+      if (Status sane = checkSize(size & 0xffff, size >> 16, bytes.size(), name, kMaxPixelsPerByte);
+          !sane)
         return sane;
       sized = true;
     }

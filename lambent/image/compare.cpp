@@ -1,0 +1,107 @@
+#include "lambent/image/compare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "lambent/image/flip.h"
+
+namespace lambent::image {
+
+Result<Comparison> compare(const Image& test, const Image& reference,
+                           const CompareOptions& options) {
+  const auto sizeOf = [](const Image& image) {
+    return std::to_string(image.width) + "×" + std::to_string(image.height);
+  };
+  if (test.width != reference.width || test.height != reference.height) {
+    return report::badInput("pictures of different sizes cannot be compared: " + sizeOf(test) +
+                            " and " + sizeOf(reference) + "; render them at one size");
+  }
+  if (test.pixels.empty()) return report::badInput("pictures without pixels cannot be compared");
+
+  Comparison result;
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  double squared = 0, relative = 0, power = 0;
+  float brightest = 0;
+  std::uint64_t pixels = 0;
+  for (size_t i = 0; i < test.pixels.size(); ++i) {
+    const Rgb& t = test.pixels[i];
+    const Rgb& r = reference.pixels[i];
+    if (!t.isFinite().all() || !r.isFinite().all()) {
+      ++result.nonFinitePixels;
+      continue;
+    }
+    const Eigen::Array3d error = t.cast<double>() - r.cast<double>();
+    const Eigen::Array3d square = r.cast<double>().square();
+    sum += error;
+    squared += error.square().sum();
+    relative += (error.square() / (square + 0.01)).sum();
+    power += square.sum();
+    brightest = std::max(brightest, r.maxCoeff());
+    result.largest = std::max(result.largest, error.abs().maxCoeff());
+    ++pixels;
+  }
+  if (pixels == 0) {
+    return report::badInput("no pixel is finite in both pictures: there is nothing to compare");
+  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto samples = 3.0 * static_cast<double>(pixels);
+  result.bias = (sum / static_cast<double>(pixels)).cast<float>();
+  result.meanBias = sum.sum() / samples;
+  result.rmse = std::sqrt(squared / samples);
+  result.relativeMse = relative / samples;
+  result.relativeRmse = squared == 0 ? 0 : power > 0 ? std::sqrt(squared / power) : kInfinity;
+  result.psnrPeak = options.displayReferred || brightest <= 0 ? 1.0 : brightest;
+  result.psnr = squared == 0 ? kInfinity : 20 * std::log10(result.psnrPeak / result.rmse);
+
+  if (options.displayReferred) {
+    result.flip = meanOf(flip(test, reference, options.pixelsPerDegree));
+  } else {
+    result.flip = meanOf(flip(radiometry::toneMap(test, options.exposureEv, options.curve),
+                              radiometry::toneMap(reference, options.exposureEv, options.curve),
+                              options.pixelsPerDegree));
+  }
+  return result;
+}
+
+Image difference(const Image& test, const Image& reference, float scale) {
+  assert(test.width == reference.width && test.height == reference.height);
+  Image out(test.width, test.height);
+  for (size_t i = 0; i < out.pixels.size(); ++i) {
+    out.pixels[i] = (test.pixels[i] - reference.pixels[i]).abs() * scale;
+  }
+  return out;
+}
+
+Image colourMap(const std::vector<float>& values, int width, int height) {
+  assert(values.size() == size_t(width) * height);
+  // Nine stops of matplotlib's "magma" (Smith and van der Walt, CC0), sRGB 0 … 255.
+  constexpr std::array<std::array<float, 3>, 9> kStops{{{0, 0, 4},
+                                                        {28, 16, 68},
+                                                        {79, 18, 123},
+                                                        {129, 37, 129},
+                                                        {181, 54, 122},
+                                                        {229, 80, 100},
+                                                        {251, 135, 97},
+                                                        {254, 194, 135},
+                                                        {252, 253, 191}}};
+  Image out(width, height);
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) {
+      out.pixels[i] = Rgb(0, 1, 0);
+      continue;
+    }
+    const float at = std::clamp(values[i], 0.0f, 1.0f) * (kStops.size() - 1);
+    const size_t stop = std::min<size_t>(static_cast<size_t>(at), kStops.size() - 2);
+    const float t = at - static_cast<float>(stop);
+    for (int c = 0; c < 3; ++c) {
+      const float code = (1 - t) * kStops[stop][c] + t * kStops[stop + 1][c];
+      out.pixels[i][c] = radiometry::srgbDecode(code / 255.0f);
+    }
+  }
+  return out;
+}
+
+}  // namespace lambent::image
