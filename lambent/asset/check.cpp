@@ -153,6 +153,15 @@ std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mes
   return std::nullopt;
 }
 
+Status checkSize(const PartBytes& bytes) {
+  if (bytes.total() < (std::uint64_t(1) << 32)) return Status::ok();
+  const auto mebibytes = [](std::uint64_t count) { return text(count >> 20) + " MiB"; };
+  return report::failed("a .glb holds at most 4 GiB, and this asset takes " +
+                        mebibytes(bytes.total()) + " (" + mebibytes(bytes.vectors) +
+                        " of vectors, " + mebibytes(bytes.matrices) +
+                        " of matrices): bake with float16, fewer bands or fewer receivers");
+}
+
 Status checkForWriting(const Asset& asset) {
   const encode::EncodedField& field = asset.transfer;
   if (field.meshes.size() != asset.scene.meshes.size())
@@ -166,7 +175,7 @@ Status checkForWriting(const Asset& asset) {
   for (std::size_t i = 0; i < field.meshes.size(); ++i)
     if (auto fault = faultOf(field.meshes[i], asset.scene.meshes[i], field.bands))
       return report::failed(meshLabel(asset.scene, i) + ": " + *fault);
-  return Status::ok();
+  return checkSize(summarize(asset).bytes);
 }
 
 }  // namespace lambent::asset

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lambent/asset/asset.h"
+#include "lambent/asset/summary.h"
 
 namespace lambent::asset {
 
@@ -23,6 +24,9 @@ std::optional<std::size_t> firstNonFinite(std::span<const Vec3> vectors);
 /// coefficient; the caller says which mesh.
 std::optional<std::string> faultOf(const encode::EncodedMesh& transfer, const scene::Mesh& mesh,
                                    int fieldBands);
+
+/// A .glb ends at 4 GiB: asked before anything of such a size is copied.
+Status checkSize(const PartBytes& bytes);
 
 /// Everything that read() would refuse, found before an hour's bake is written: ErrorKind::Failed.
 Status checkForWriting(const Asset& asset);

@@ -195,6 +195,14 @@ TEST_F(AssetHostile, NodesThatMoveTheMesh) {
   EXPECT_TRUE(same);
 }
 
+TEST_F(AssetHostile, DeformedMeshes) {
+  expectRefused("deform a mesh", [](json& d) { d["nodes"][0]["skin"] = 0; });
+  expectRefused("deform a mesh", [](json& d) {
+    json& bent = d["meshes"][1]["primitives"][0];
+    bent["targets"] = {{{"POSITION", bent["attributes"]["POSITION"]}}};
+  });
+}
+
 TEST_F(AssetHostile, NumbersThatAreNotFinite) {
   Glb glb = Glb::parse(good_);
   const json document = json::parse(glb.json);

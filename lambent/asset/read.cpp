@@ -251,8 +251,9 @@ Result<Asset> read(const std::filesystem::path& path) {
   const std::vector<int> parents = parentsOf(nodes);
   for (std::size_t i = 0; i < asset.scene.meshes.size(); ++i) {
     const auto& origin = loaded->origins[i];
-    const json* object = extensionOf(
-        document["meshes"][std::size_t(origin.mesh)]["primitives"][std::size_t(origin.primitive)]);
+    const json& primitive =
+        document["meshes"][std::size_t(origin.mesh)]["primitives"][std::size_t(origin.primitive)];
+    const json* object = extensionOf(primitive);
     if (!object) {
       asset.transfer.meshes.emplace_back();
       continue;
@@ -264,6 +265,10 @@ Result<Asset> read(const std::filesystem::path& path) {
           name + ": nodes[" + std::to_string(origin.node) +
           "]: moves a mesh away from where its transfer was baked: bake the scene as "
           "it stands now");
+    if (member(nodes[std::size_t(origin.node)], "skin") || member(primitive, "targets"))
+      return report::badInput(name + ": nodes[" + std::to_string(origin.node) +
+                              "]: a skin or morph targets deform a mesh with baked transfer: "
+                              "remove them, or bake the deformed mesh");
     const scene::Mesh& mesh = asset.scene.meshes[i];
     EncodedMesh transfer = meshOf(JsonFields(*object, place, fault), accessors, mesh);
     if (!fault.empty()) return report::badInput(name + ": " + fault);

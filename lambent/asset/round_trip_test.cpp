@@ -4,6 +4,7 @@
 #include <random>
 
 #include "lambent/asset/asset.h"
+#include "lambent/asset/check.h"
 #include "lambent/asset/samples.h"
 #include "lambent/asset/test_support.h"
 
@@ -187,6 +188,35 @@ TEST(AssetWrite, RefusesWhatItCouldNotRead) {
   EXPECT_EQ(write(unoccludedSquare(), folder / "asset.gltf").error().kind, ErrorKind::BadUsage);
   EXPECT_EQ(write(unoccludedSquare(), folder / "no/such/folder.glb").error().kind,
             ErrorKind::BadInput);
+}
+
+TEST(AssetWrite, WhatDoesNotFitInAGlbIsSaid) {
+  PartBytes bytes;
+  bytes.vectors = (std::uint64_t(1) << 32) - 1;
+  EXPECT_TRUE(checkSize(bytes));
+  bytes.matrices = 1;
+  const Status status = checkSize(bytes);
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("at most 4 GiB"), std::string::npos);
+}
+
+TEST(AssetRead, TheSameAssetAsJsonAndBinSideBySide) {
+  const Folder folder;
+  ASSERT_TRUE(write(everyLayout(), folder / "asset.glb"));
+  const test::Glb glb = test::Glb::parse(test::bytesOf(folder / "asset.glb"));
+  std::string json = glb.json;
+  const std::string buffer = "\"buffers\":[{";
+  const std::size_t at = json.find(buffer);
+  ASSERT_NE(at, std::string::npos);
+  json.insert(at + buffer.size(), "\"uri\":\"asset.bin\",");
+  test::spill(folder / "asset.bin", glb.binary);
+  test::spill(folder / "asset.gltf", std::as_bytes(std::span(json)));
+  const Result<Asset> read = asset::read(folder / "asset.gltf");
+  ASSERT_TRUE(read) << read.error().message;
+  test::expectSame(*read, everyLayout());
+  const Result<bool> answer = isAsset(folder / "asset.gltf");
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(*answer);
 }
 
 TEST(IsAsset, TellsAssetsFromOtherFiles) {
