@@ -89,7 +89,12 @@ Status runBake(BakeArguments arguments, Console& console) {
   options.kind = *parseTransfer(arguments.transfer);
   options.threads = console.options().threads;
 
-  auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene); });
+  // Without bounces there is no room for a slipped ray's light to gather in.
+  const trace::Edges edges = options.kind == transport::TransferKind::Interreflected
+                                 ? trace::Edges::Watertight
+                                 : trace::Edges::Fast;
+  auto rays =
+      console.stage("ray structure", [&] { return trace::RayScene::build(*scene, edges); });
   if (!rays) return rays.error();
   Findings findings;
   auto field = transport::bake(*scene, *rays, options, console.progress(), findings);

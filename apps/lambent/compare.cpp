@@ -12,10 +12,9 @@
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/verbs.h"
-#include "lambent/compare/flip.h"
-#include "lambent/compare/metrics.h"
-#include "lambent/compare/strip.h"
+#include "lambent/image/compare.h"
 #include "lambent/image/io.h"
+#include "lambent/image/strip.h"
 
 namespace lambent::tool {
 
@@ -34,13 +33,13 @@ struct Arguments {
 };
 
 constexpr std::string_view kExamples = R"(A is the truth, B what is judged.
-  bias            mean(B - A) / mean(A): too dark below zero, too bright above
+  bias            sum of B - A over the sum of A: too dark below zero, too bright above
   rmse            root mean square difference, in radiance
   relative_rmse   the same over the root mean square of A
-  relative_mse    mean of squared differences, each over its own A squared
-  psnr            dB, of the developed pictures (exposure, tone curve, sRGB)
+  relative_mse    mean of squared differences, each over its own A squared (+ 0.01)
+  psnr            dB below the brightest value of A, or below 1 for PNG
   flip            0 to 1, what a person sees who flips between the developed pictures
-Pixels that neither picture covers are left out of the first four.
+Pixels that neither picture covers are left out of all but flip.
 
 Examples:
   lambent compare truth.exr ours.exr
@@ -66,9 +65,10 @@ Result<Limit> parseLimit(const std::string& text) {
   return Limit{metric, *value};
 }
 
-struct Comparison {
-  compare::Metrics metrics;
-  std::optional<double> psnr, flip;
+struct Outcome {
+  std::size_t count = 0;  ///< pixels or receivers
+  image::Comparison numbers;
+  std::optional<double> flip;
   float exposure = 0.0f;
 };
 
@@ -76,50 +76,41 @@ Json numberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);  // JSON has no infinity
 }
 
-Json summaryOf(const Comparison& comparison) {
-  const compare::Metrics& m = comparison.metrics;
-  Json json = {{"count", m.count},
-               {"bias", numberOrNull(m.relativeBias)},
-               {"bias_rgb", asJson(m.bias)},
-               {"rmse", m.rmse},
-               {"relative_rmse", numberOrNull(m.relativeRmse)},
-               {"relative_mse", numberOrNull(m.relativeMse)},
-               {"worst", m.worst}};
-  if (comparison.psnr) json["psnr"] = numberOrNull(*comparison.psnr);
-  if (comparison.flip) {
-    json["flip"] = *comparison.flip;
-    json["exposure"] = comparison.exposure;
+Json summaryOf(const Outcome& outcome) {
+  const image::Comparison& n = outcome.numbers;
+  Json json = {{"count", outcome.count},
+               {"bias", numberOrNull(n.relativeBias)},
+               {"bias_rgb", asJson(n.bias)},
+               {"rmse", n.rmse},
+               {"relative_rmse", numberOrNull(n.relativeRmse)},
+               {"relative_mse", n.relativeMse},
+               {"psnr", numberOrNull(n.psnr)},
+               {"largest", n.largest},
+               {"not_finite", n.nonFinitePixels}};
+  if (outcome.flip) {
+    json["flip"] = *outcome.flip;
+    json["exposure"] = outcome.exposure;
   }
   return json;
 }
 
-std::string asText(const Comparison& comparison, std::string_view unit) {
-  const compare::Metrics& m = comparison.metrics;
+std::string textOf(const Outcome& outcome, std::string_view unit) {
+  const image::Comparison& n = outcome.numbers;
   std::string text = fmt::format(
       "{} {} compared\n"
       "  bias           {:+.4f} %\n"
       "  rmse           {:.6g}\n"
       "  relative rmse  {:.4f} %\n"
-      "  relative mse   {:.6g}\n",
-      formatCount(m.count), unit, 100.0 * m.relativeBias, m.rmse, 100.0 * m.relativeRmse,
-      m.relativeMse);
-  if (comparison.psnr) text += fmt::format("  psnr           {:.2f} dB\n", *comparison.psnr);
-  if (comparison.flip)
-    text += fmt::format("  flip           {:.5f} at {:+.2f} EV\n", *comparison.flip,
-                        comparison.exposure);
+      "  relative mse   {:.6g}\n"
+      "  psnr           {:.2f} dB\n",
+      formatCount(outcome.count), unit, 100.0 * n.relativeBias, n.rmse, 100.0 * n.relativeRmse,
+      n.relativeMse, n.psnr);
+  if (outcome.flip)
+    text += fmt::format("  flip           {:.5f} at {:+.2f} EV\n", *outcome.flip, outcome.exposure);
   return text;
 }
 
-/// Nothing can be said about what is not a number.
-Status requireFinite(std::span<const Rgb> values, const std::filesystem::path& path) {
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!values[i].isFinite().all())
-      return badInput(
-          fmt::format("{}: entry {} is not finite: make the picture again", path.string(), i));
-  return Status::ok();
-}
-
-Result<Comparison> compareReceivers(const Arguments& arguments) {
+Result<Outcome> compareReceivers(const Arguments& arguments) {
   if (!arguments.difference.empty() || !arguments.strip.empty())
     return badUsage("--diff and --strip need two pictures, not receivers");
   const auto a = readReceivers(arguments.truth);
@@ -133,12 +124,32 @@ Result<Comparison> compareReceivers(const Arguments& arguments) {
   std::vector<Rgb> truth, judged;
   for (const ShadedReceiver& receiver : *a) truth.push_back(receiver.radiance);
   for (const ShadedReceiver& receiver : *b) judged.push_back(receiver.radiance);
-  if (Status s = requireFinite(truth, arguments.truth); !s) return s.error();
-  if (Status s = requireFinite(judged, arguments.judged); !s) return s.error();
-  return Comparison{compare::measure(truth, judged), {}, {}, 0.0f};
+  const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
+  if (!numbers) return badInput(arguments.truth.string() + ": " + numbers.error().message);
+  return Outcome{truth.size(), *numbers, {}, 0.0f};
 }
 
-Result<Comparison> comparePictures(const Arguments& arguments, Console& console) {
+/// Only the pixels that either picture covers.
+std::pair<std::vector<Rgb>, std::vector<Rgb>> covered(const image::Image& a,
+                                                      const image::Image& b) {
+  std::pair<std::vector<Rgb>, std::vector<Rgb>> both;
+  const bool masked = !a.alpha.empty() && !b.alpha.empty();
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    if (masked && a.alpha[i] <= 0.0f && b.alpha[i] <= 0.0f) continue;
+    both.first.push_back(a.pixels[i]);
+    both.second.push_back(b.pixels[i]);
+  }
+  return both;
+}
+
+Status writeStrip(const Arguments& arguments, const image::Image& a, const image::Image& b,
+                  const image::Image& difference) {
+  const Rgb backdrop = Rgb::Constant(0.03f), gap = Rgb::Constant(1.0f);
+  const std::array panels = {image::over(a, backdrop), image::over(b, backdrop), difference};
+  return written(image::write(image::strip(panels, 4, gap), arguments.strip));
+}
+
+Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
   for (const auto& output : {arguments.difference, arguments.strip}) {
     if (output.empty()) continue;
     for (const auto& input : {arguments.truth, arguments.judged})
@@ -152,35 +163,38 @@ Result<Comparison> comparePictures(const Arguments& arguments, Console& console)
     return badInput(fmt::format("{} is {}x{}, {} is {}x{}: make both of one --size",
                                 arguments.truth.string(), a->width, a->height,
                                 arguments.judged.string(), b->width, b->height));
-  if (Status s = requireFinite(a->pixels, arguments.truth); !s) return s.error();
-  if (Status s = requireFinite(b->pixels, arguments.judged); !s) return s.error();
 
   // PNG pictures are developed already.
   const bool developed =
       extensionOf(arguments.truth) == ".png" && extensionOf(arguments.judged) == ".png";
-  Comparison comparison;
   const bool automatic = arguments.development.exposure == "auto";
-  comparison.exposure = developed && automatic ? 0.0f : arguments.development.exposureFor(*a);
-  const auto curve = developed ? radiometry::ToneCurve::Linear : arguments.development.curve();
-  const image::Image shownA = radiometry::toneMap(*a, comparison.exposure, curve);
-  const image::Image shownB = radiometry::toneMap(*b, comparison.exposure, curve);
-  comparison.metrics = compare::measure(*a, *b);
-  comparison.psnr = compare::psnr(shownA, shownB);
-  comparison.flip = console.stage("flip", [&] { return compare::flip(shownA, shownB).mean; });
+  image::CompareOptions options;
+  options.displayReferred = developed;
+  options.exposureEv = developed && automatic ? 0.0f : arguments.development.exposureFor(*a);
+  options.curve = developed ? radiometry::ToneCurve::Linear : arguments.development.curve();
+  const auto whole = console.stage("compare", [&] { return image::compare(*b, *a, options); });
+  if (!whole) return badInput(arguments.truth.string() + ": " + whole.error().message);
+  const auto [truth, judged] = covered(*a, *b);
+  const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
+  Outcome outcome{truth.size(), numbers ? *numbers : *whole, whole->flip, options.exposureEv};
+  if (developed) outcome.numbers.psnr = whole->psnr;
+  if (outcome.numbers.nonFinitePixels > 0)
+    console.warn("not-finite", fmt::format("{} pixels are not finite and were left out",
+                                           outcome.numbers.nonFinitePixels));
 
+  const auto develop = [&](const image::Image& picture, radiometry::ToneCurve curve) {
+    return radiometry::toneMap(picture, options.exposureEv, curve);
+  };
   const image::Image difference =
-      radiometry::toneMap(compare::difference(*a, *b, arguments.gain), comparison.exposure,
-                          radiometry::ToneCurve::Linear);
+      develop(image::difference(*b, *a, arguments.gain), radiometry::ToneCurve::Linear);
   if (!arguments.difference.empty())
     if (Status s = written(image::write(difference, arguments.difference)); !s) return s.error();
   if (!arguments.strip.empty()) {
-    const Rgb backdrop = Rgb::Constant(0.03f);
-    const std::array panels = {compare::over(shownA, backdrop), compare::over(shownB, backdrop),
-                               difference};
-    const image::Image strip = compare::strip(panels, 4, Rgb::Constant(1.0f));
-    if (Status s = written(image::write(strip, arguments.strip)); !s) return s.error();
+    Status s =
+        writeStrip(arguments, develop(*a, options.curve), develop(*b, options.curve), difference);
+    if (!s) return s.error();
   }
-  return comparison;
+  return outcome;
 }
 
 bool holdsReceivers(const std::filesystem::path& path) {
@@ -192,11 +206,11 @@ Status runCompare(const Arguments& arguments, Console& console) {
   const bool receivers = holdsReceivers(arguments.truth);
   if (receivers != holdsReceivers(arguments.judged))
     return badUsage("compare two pictures, or two outputs of 'lambent shade'");
-  const auto comparison =
+  const auto outcome =
       receivers ? compareReceivers(arguments) : comparePictures(arguments, console);
-  if (!comparison) return comparison.error();
+  if (!outcome) return outcome.error();
 
-  const Json json = summaryOf(*comparison);
+  const Json json = summaryOf(*outcome);
   std::string exceeded;
   for (const std::string& text : arguments.limits) {
     const Result<Limit> limit = parseLimit(text);
@@ -208,7 +222,7 @@ Status runCompare(const Arguments& arguments, Console& console) {
       exceeded += fmt::format("{}{} is {}, above {}", exceeded.empty() ? "" : "; ", limit->metric,
                               value.dump(), limit->value);
   }
-  std::string text = asText(*comparison, receivers ? "receivers" : "pixels");
+  std::string text = textOf(*outcome, receivers ? "receivers" : "pixels");
   if (!arguments.difference.empty())
     text += fmt::format("difference x{:g}: {}\n", arguments.gain, arguments.difference.string());
   if (!arguments.strip.empty()) text += fmt::format("strip: {}\n", arguments.strip.string());

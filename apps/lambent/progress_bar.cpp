@@ -49,10 +49,8 @@ std::string formatBytes(double bytes) {
 }
 
 std::string formatCount(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
-    digits.insert(static_cast<size_t>(at), ",");
-  return digits;
+  if (count < 1000) return std::to_string(count);
+  return fmt::format("{},{:03}", formatCount(count / 1000), count % 1000);
 }
 
 void ProgressBar::update(const ProgressUpdate& update) {

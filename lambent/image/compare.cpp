@@ -23,7 +23,7 @@ Result<Comparison> compare(const Image& test, const Image& reference,
 
   Comparison result;
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  double squared = 0, relative = 0, power = 0;
+  double squared = 0, relative = 0, power = 0, whole = 0;
   float brightest = 0;
   std::uint64_t pixels = 0;
   for (size_t i = 0; i < test.pixels.size(); ++i) {
@@ -39,6 +39,7 @@ Result<Comparison> compare(const Image& test, const Image& reference,
     squared += error.square().sum();
     relative += (error.square() / (square + 0.01)).sum();
     power += square.sum();
+    whole += r.cast<double>().sum();
     brightest = std::max(brightest, r.maxCoeff());
     result.largest = std::max(result.largest, error.abs().maxCoeff());
     ++pixels;
@@ -50,6 +51,7 @@ Result<Comparison> compare(const Image& test, const Image& reference,
   const auto samples = 3.0 * static_cast<double>(pixels);
   result.bias = (sum / static_cast<double>(pixels)).cast<float>();
   result.meanBias = sum.sum() / samples;
+  result.relativeBias = sum.sum() == 0 ? 0 : whole != 0 ? sum.sum() / whole : kInfinity;
   result.rmse = std::sqrt(squared / samples);
   result.relativeMse = relative / samples;
   result.relativeRmse = squared == 0 ? 0 : power > 0 ? std::sqrt(squared / power) : kInfinity;

@@ -23,9 +23,10 @@ struct CompareOptions {
 /// Over all pixels and channels where both pictures are finite; t is the picture under test, r the
 /// reference. Alpha is not compared.
 struct Comparison {
-  Rgb bias = Rgb::Zero();  ///< mean of t − r, per channel
-  double meanBias = 0;     ///< of the three channels
-  double rmse = 0;         ///< √ mean (t − r)²
+  Rgb bias = Rgb::Zero();   ///< mean of t − r, per channel
+  double meanBias = 0;      ///< of the three channels
+  double relativeBias = 0;  ///< Σ (t − r) / Σ r; 0 if equal, infinite where only r is black
+  double rmse = 0;          ///< √ mean (t − r)²
   double relativeRmse = 0;  ///< √ (Σ (t − r)² / Σ r²); infinite where only the reference is black
   double relativeMse = 0;  ///< mean (t − r)² / (r² + 0.01) (rousselle2011adaptive)
   double psnr = 0;         ///< 10 log₁₀ (peak² / mean (t − r)²), dB; infinite if equal

@@ -41,6 +41,7 @@ TEST(Compare, KnownNumbers) {
   EXPECT_NEAR(c->bias[0], 0.1, 1e-6);
   EXPECT_NEAR(c->bias[2], -0.2, 1e-6);
   EXPECT_NEAR(c->meanBias, -0.1 / 3, 1e-6);
+  EXPECT_NEAR(c->relativeBias, -0.1 / 3.5, 1e-6);
   EXPECT_NEAR(c->rmse, std::sqrt(0.05 / 3), 1e-6);
   EXPECT_NEAR(c->relativeRmse, std::sqrt(0.05 / 5.25), 1e-6);
   EXPECT_NEAR(c->relativeMse, (0.01 / 0.26 + 0.04 / 4.01) / 3, 1e-6);
@@ -68,6 +69,20 @@ TEST(Compare, SizesMustAgreeAndWhatIsNotFiniteIsCounted) {
   EXPECT_EQ(c->rmse, 0.0);
   EXPECT_TRUE(std::isfinite(c->flip));
   EXPECT_FALSE(compare(constant(1, 1, Rgb(NAN, 0, 0)), Image(1, 1)));
+}
+
+TEST(Compare, RadiancesBesideEachOther) {
+  const std::vector<Rgb> truth = {Rgb(1, 1, 1), Rgb(3, 3, 3)};
+  const std::vector<Rgb> judged = {Rgb(1.5f, 1, 1), Rgb(3, 3, 2)};
+  const Result<Comparison> c = compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
+  ASSERT_TRUE(c);
+  EXPECT_NEAR(c->bias[0], 0.25, 1e-7);
+  EXPECT_NEAR(c->relativeBias, -0.5 / 12, 1e-9);
+  EXPECT_NEAR(c->relativeRmse, std::sqrt(1.25 / 30), 1e-9);
+  EXPECT_FALSE(compare(std::span<const Rgb>(), std::span<const Rgb>()));
+  const std::vector<Rgb> black = {Rgb::Zero(), Rgb::Zero()};
+  EXPECT_TRUE(
+      std::isinf(compare(std::span<const Rgb>(judged), std::span<const Rgb>(black))->relativeBias));
 }
 
 TEST(Compare, DifferenceAndColourMap) {

@@ -1,0 +1,226 @@
+"""Baking, lighting and shading: what comes out is what was asked for."""
+
+import math
+import subprocess
+
+from harness import FAILED, INPUTS, ToolTest, ball_obj, png, quad_obj, read_csv
+
+REPOSITORY = INPUTS.parent.parent
+
+
+class Bake(ToolTest):
+    def test_the_same_bytes_whatever_the_threads(self):
+        self.write("ball.obj", ball_obj(48, 24))
+        options = ("--directions", 512, "--bounces", 2)
+        one = self.bake("ball.obj", "one.glb", *options, "--threads", 1).read_bytes()
+        two = self.bake("ball.obj", "two.glb", *options, "--threads", 2).read_bytes()
+        three = self.bake("ball.obj", "three.glb", *options, "--threads", 3).read_bytes()
+        self.assertTrue(one == two == three)
+        other = self.bake("ball.obj", "other.glb", *options, "--seed", 7).read_bytes()
+        self.assertNotEqual(one, other)
+
+    def test_a_white_ball_under_an_even_sky_is_as_bright_as_the_sky(self):
+        self.bake("ball.obj", "ball.glb", "--albedo", 1, "--transfer", "unshadowed",
+                  "--encoding", "float32")
+        self.run_tool("shade", "ball.glb", "--light", "uniform:0.5", "-o", "ball.csv")
+        for row in read_csv(self.path("ball.csv")):
+            for radiance in row[6:]:
+                self.assertAlmostEqual(radiance, 0.5, places=4)
+
+    def test_albedo_scales_diffuse_light(self):
+        for albedo, name in (("0.25,0.5,1", "a"), ("1", "b")):
+            self.bake("ball.obj", name + ".glb", "--albedo", albedo, "--transfer", "shadowed",
+                      "--encoding", "float32")
+            self.run_tool("shade", name + ".glb", "--light", "disc:0,45,20", "-o", name + ".csv")
+        for a, b in zip(read_csv(self.path("a.csv")), read_csv(self.path("b.csv"))):
+            for c, albedo in enumerate((0.25, 0.5, 1.0)):
+                self.assertAlmostEqual(a[6 + c], albedo * b[6 + c], places=5)
+
+    def test_csv_and_ply_hold_the_same(self):
+        self.bake()
+        for output in ("a.csv", "a.ply"):
+            self.run_tool("shade", "ball.glb", "--light", "disc:10,50,30", "-o", output)
+        self.run_tool("compare", "a.csv", "a.csv", "--fail-above", "rmse=0")
+        csv, ply = read_csv(self.path("a.csv")), self.path("a.ply").read_bytes()
+        self.assertIn(b"element vertex 114\n", ply)
+        self.assertEqual(len(ply) - ply.index(b"end_header\n") - 11, 114 * 9 * 4)
+        self.assertEqual(len(csv), 114)
+        for row in csv:
+            self.assertAlmostEqual(math.hypot(*row[3:6]), 1.0, places=5)
+
+    def test_texels_over_a_plane(self):
+        self.write("plane.obj", quad_obj())
+        summary = self.run_json("bake", "plane.obj", "-o", "plane.glb", "--texels", "24x16",
+                                "--directions", 256)
+        mesh = summary["transfer"]["meshes"][0]
+        self.assertEqual((mesh["layout"], mesh["width"], mesh["height"]), ("texels", 24, 16))
+        self.run_tool("shade", "plane.glb", "--light", "uniform", "-o", "plane.csv")
+        self.assertEqual(len(read_csv(self.path("plane.csv"))), 24 * 16)
+
+    def test_glossy_has_matrices_and_its_lobe_is_free(self):
+        summary = self.run_json(
+            "bake", str(self.write("ball.obj", ball_obj())), "-o", "ball.glb", "--directions", 256,
+            "--material", "glossy", "--albedo", 1, "--lobe", 8, "--transfer", "shadowed",
+            "--bands", 5, "--glossy-bands", 3)
+        mesh = summary["transfer"]["meshes"][0]
+        self.assertEqual((mesh["matrix_out_bands"], mesh["matrix_in_bands"]), (3, 5))
+        shade = ("shade", "ball.glb", "--light", "disc:0,90,40", "--eye", "0,10,0")
+        self.run_tool(*shade, "-o", "soft.csv")
+        self.run_tool(*shade, "-o", "hard.csv", "--lobe", 40)
+        soft, hard = (read_csv(self.path(n)) for n in ("soft.csv", "hard.csv"))
+        self.assertGreater(hard[0][6], soft[0][6])  # the pole mirrors the light to the eye
+
+    def test_a_mirror_records_no_transfer(self):
+        self.write("ball.obj", ball_obj())
+        self.run_tool("bake", "ball.obj", "-o", "ball.glb", "--material", "mirror", "--directions",
+                      64, code=(0, 3))
+
+    def test_a_threshold_ends_the_bounces(self):
+        self.write("plane.obj", quad_obj())
+        summary = self.run_json("bake", "plane.obj", "-o", "a.glb", "--directions", 256,
+                                "--bounces", 50, "--energy-threshold", 0.01)
+        self.assertLess(summary["transfer"]["bounces"], 50)
+
+    def test_gltf_validator_finds_no_error(self):
+        self.write("plane.obj", quad_obj())
+        self.bake()
+        self.bake("plane.obj", "texels.glb", "--texels", "8x8", "--encoding", "float32")
+        self.bake("ball.obj", "glossy.glb", "--material", "glossy", "--transfer", "shadowed")
+        for name in ("ball.glb", "texels.glb", "glossy.glb"):
+            result = subprocess.run(
+                ["node", REPOSITORY / "tools/validate-gltf.mjs", INPUTS, self.path(name)],
+                capture_output=True, text=True)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+
+class Light(ToolTest):
+    def test_a_real_environment_map(self):
+        summary = self.run_json("light", INPUTS / "hdri/venice.exr", "-o", "v.json")["light"]
+        self.assertEqual(summary["coefficients"], 25)
+        self.assertGreater(min(summary["mean_radiance"]), 0)
+
+    def test_turning_moves_the_azimuth_and_keeps_the_mean(self):
+        plain = self.run_json("light", "disc:20,30,10", "-o", "a.json")["light"]
+        turned = self.run_json("light", "disc:20,30,10", "-o", "b.json", "--rotate-y", 50)["light"]
+        self.assertAlmostEqual(plain["azimuth"], 20, places=2)
+        self.assertAlmostEqual(plain["elevation"], 30, places=2)
+        # Counter-clockwise seen from above takes +x towards -z: azimuth falls.
+        self.assertAlmostEqual(turned["azimuth"], 20 - 50, places=2)
+        self.assertAlmostEqual(turned["mean_radiance"][0], plain["mean_radiance"][0], places=6)
+
+    def test_sums_add_up(self):
+        parts = [self.run_json("light", source, "-o", "a.json")["light"]["mean_radiance"][0]
+                 for source in ("uniform:0.25", "disc:0,90,60,3", "uniform:0.25+disc:0,90,60,3")]
+        self.assertAlmostEqual(parts[0] + parts[1], parts[2], places=5)
+
+    def test_a_light_goes_through_its_file_unchanged(self):
+        self.bake("ball.obj", "ball.glb", "--encoding", "float32")
+        self.run_tool("light", "disc:0,60,30,2", "-o", "l.json")
+        for source, output in (("l.json", "a.csv"), ("disc:0,60,30,2", "b.csv")):
+            self.run_tool("shade", "ball.glb", "--light", source, "-o", output)
+        self.run_tool("compare", "a.csv", "b.csv", "--fail-above", "relative_rmse=1e-6")
+
+    def test_minimal_window_keeps_radiance_from_falling_below_zero(self):
+        lowest = [self.run_json("light", "disc:0,40,5,100", "-o", "a.json", "--window",
+                                window)["light"]["lowest_luminance"]
+                  for window in ("none", "minimal")]
+        self.assertLess(lowest[0], -0.01)
+        self.assertGreater(lowest[1], -1e-3)
+
+
+class Info(ToolTest):
+    def test_says_what_is_in_a_file(self):
+        self.write("ball.obj", ball_obj())
+        self.assertEqual(self.run_json("info", "ball.obj")["vertices"], 114)
+        self.bake()
+        asset = self.run_json("info", "ball.glb")
+        self.assertEqual((asset["kind"], asset["transfer"]["bands"]), ("asset", 5))
+        self.write("a.png", png(16, 8, lambda x, y: (255, 255, 255)))
+        image = self.run_json("info", "a.png")
+        self.assertEqual((image["kind"], image["width"], image["height"]), ("image", 16, 8))
+        self.assertAlmostEqual(image["light"]["mean_radiance"][0], 1.0, places=4)
+        self.run_tool("light", "uniform", "-o", "l.json", "--bands", 2)
+        self.assertEqual(self.run_json("info", "l.json")["bands"], 2)
+        self.run_tool("shade", "ball.glb", "--light", "uniform", "-o", "s.ply")
+        self.assertEqual(self.run_json("info", "s.ply")["receivers"], 114)
+        self.assertIn("114 vertices", self.run_tool("info", "ball.obj").stdout)
+
+    def test_the_real_bunny(self):
+        self.assertEqual(self.run_json("info", INPUTS / "bunny.obj")["vertices"], 34835)
+
+
+class Compare(ToolTest):
+    def test_metrics_of_pictures_worked_out_by_hand(self):
+        self.write("a.png", png(8, 8, lambda x, y: (255, 255, 255)))
+        self.write("b.png", png(8, 8, lambda x, y: (0, 0, 0)))
+        summary = self.run_json("compare", "a.png", "b.png")
+        self.assertAlmostEqual(summary["bias"], -1.0)
+        self.assertAlmostEqual(summary["rmse"], 1.0)
+        self.assertAlmostEqual(summary["relative_rmse"], 1.0)
+        self.assertAlmostEqual(summary["relative_mse"], 1 / 1.01, places=6)
+        self.assertAlmostEqual(summary["psnr"], 0.0)
+        self.assertGreater(summary["flip"], 0.9)
+
+    def test_equal_pictures(self):
+        self.write("a.png", png(8, 8, lambda x, y: (9 * x, 9 * y, 77)))
+        summary = self.run_json("compare", "a.png", "a.png")
+        self.assertEqual((summary["rmse"], summary["flip"], summary["psnr"]), (0, 0, None))
+
+    def test_fail_above_is_for_scripts(self):
+        self.write("a.png", png(8, 8, lambda x, y: (200, 200, 200)))
+        self.write("b.png", png(8, 8, lambda x, y: (180, 180, 180)))
+        self.run_tool("compare", "a.png", "b.png", "--fail-above", "relative_rmse=0.9")
+        result = self.run_tool("compare", "a.png", "b.png", "--fail-above", "relative_rmse=0.01",
+                               code=FAILED)
+        self.assertIn("relative_rmse", result.stderr)
+
+    def test_strip_and_difference_are_pictures(self):
+        self.write("a.png", png(8, 6, lambda x, y: (200, 200, 200)))
+        self.write("b.png", png(8, 6, lambda x, y: (180, 180, 180)))
+        self.run_tool("compare", "a.png", "b.png", "--strip", "s.png", "--diff", "d.png")
+        strip, difference = (self.run_json("info", n) for n in ("s.png", "d.png"))
+        self.assertEqual((strip["width"], strip["height"]), (3 * 8 + 2 * 4, 6))
+        self.assertEqual((difference["width"], difference["height"]), (8, 6))
+
+
+class Pictures(ToolTest):
+    SIZE = ("--size", "96x72")
+    LIGHT = ("--light", "disc:40,35,30,4+uniform:0.3")
+
+    def test_gl_and_cpu_agree(self):
+        self.bake("ball.obj", "ball.glb", "--albedo", "0.8,0.6,0.4")
+        for backend in ("gl", "cpu"):
+            self.run_tool("render", "ball.glb", *self.LIGHT, *self.SIZE, "-o", backend + ".png",
+                          "--backend", backend, "--exposure", 0)
+        self.run_tool("compare", "cpu.png", "gl.png", "--fail-above", "rmse=0.01")
+
+    def test_render_against_the_path_traced_truth(self):
+        self.bake("ball.obj", "ball.glb", "--directions", 4096, "--encoding", "float32")
+        self.run_tool("render", "ball.glb", *self.LIGHT, *self.SIZE, "-o", "ours.exr",
+                      "--backend", "cpu")
+        self.run_tool("reference", "ball.glb", *self.LIGHT, *self.SIZE, "-o", "truth.exr",
+                      "--bands", 5, "--spp", 256)
+        self.run_tool("compare", "truth.exr", "ours.exr", "--fail-above", "relative_rmse=0.03",
+                      "--fail-above", "bias=0.01")
+
+    def test_the_reference_has_a_layer_of_variance(self):
+        self.write("ball.obj", ball_obj())
+        self.run_tool("reference", "ball.obj", *self.LIGHT, *self.SIZE, "-o", "a.exr", "--spp", 4)
+        self.assertIn(b"variance.R", self.path("a.exr").read_bytes()[:2000])
+
+    def test_exposure_doubles_and_tone_curves_differ(self):
+        self.bake()
+        render = ("render", "ball.glb", *self.LIGHT, *self.SIZE, "--backend", "cpu")
+        means = [sum(self.run_json(*render, "-o", f"{ev}.exr", "--exposure", ev)["picture"]["mean"])
+                 for ev in (0, 1)]
+        self.assertAlmostEqual(means[1] / means[0], 2.0, places=4)
+        for tone in ("linear", "filmic"):
+            self.run_tool(*render, "-o", tone + ".png", "--tone", tone)
+        self.assertNotEqual(self.path("linear.png").read_bytes(),
+                            self.path("filmic.png").read_bytes())
+
+    def test_the_background_is_the_environment(self):
+        self.bake()
+        summary = self.run_json("render", "ball.glb", "--light", "uniform:3", *self.SIZE, "-o",
+                                "a.exr", "--backend", "cpu", "--background")
+        self.assertAlmostEqual(summary["picture"]["highest"][0], 3.0, places=3)
