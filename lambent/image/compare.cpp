@@ -10,25 +10,16 @@
 
 namespace lambent::image {
 
-Result<Comparison> compare(const Image& test, const Image& reference,
-                           const CompareOptions& options) {
-  const auto sizeOf = [](const Image& image) {
-    return std::to_string(image.width) + "×" + std::to_string(image.height);
-  };
-  if (test.width != reference.width || test.height != reference.height) {
-    return report::badInput("pictures of different sizes cannot be compared: " + sizeOf(test) +
-                            " and " + sizeOf(reference) + "; render them at one size");
-  }
-  if (test.pixels.empty()) return report::badInput("pictures without pixels cannot be compared");
-
+Result<Comparison> compare(std::span<const Rgb> test, std::span<const Rgb> reference) {
+  assert(test.size() == reference.size());
   Comparison result;
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   double squared = 0, relative = 0, power = 0, whole = 0;
   float brightest = 0;
   std::uint64_t pixels = 0;
-  for (size_t i = 0; i < test.pixels.size(); ++i) {
-    const Rgb& t = test.pixels[i];
-    const Rgb& r = reference.pixels[i];
+  for (size_t i = 0; i < test.size(); ++i) {
+    const Rgb& t = test[i];
+    const Rgb& r = reference[i];
     if (!t.isFinite().all() || !r.isFinite().all()) {
       ++result.nonFinitePixels;
       continue;
@@ -55,10 +46,29 @@ Result<Comparison> compare(const Image& test, const Image& reference,
   result.rmse = std::sqrt(squared / samples);
   result.relativeMse = relative / samples;
   result.relativeRmse = squared == 0 ? 0 : power > 0 ? std::sqrt(squared / power) : kInfinity;
-  result.psnrPeak = options.displayReferred || brightest <= 0 ? 1.0 : brightest;
+  result.psnrPeak = brightest > 0 ? brightest : 1.0;
   result.psnr = squared == 0 ? kInfinity : 20 * std::log10(result.psnrPeak / result.rmse);
+  return result;
+}
 
+Result<Comparison> compare(const Image& test, const Image& reference,
+                           const CompareOptions& options) {
+  const auto sizeOf = [](const Image& image) {
+    return std::to_string(image.width) + "×" + std::to_string(image.height);
+  };
+  if (test.width != reference.width || test.height != reference.height) {
+    return report::badInput("pictures of different sizes cannot be compared: " + sizeOf(test) +
+                            " and " + sizeOf(reference) + "; render them at one size");
+  }
+  if (test.pixels.empty()) return report::badInput("pictures without pixels cannot be compared");
+
+  Result<Comparison> measured =
+      compare(std::span<const Rgb>(test.pixels), std::span<const Rgb>(reference.pixels));
+  if (!measured) return measured;
+  Comparison& result = *measured;
   if (options.displayReferred) {
+    result.psnr -= 20 * std::log10(result.psnrPeak);
+    result.psnrPeak = 1.0;
     result.flip = meanOf(flip(test, reference, options.pixelsPerDegree));
   } else {
     result.flip = meanOf(flip(radiometry::toneMap(test, options.exposureEv, options.curve),

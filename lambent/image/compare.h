@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "lambent/image/image.h"
 #include "lambent/radiometry/tone.h"
@@ -39,6 +41,10 @@ struct Comparison {
 /// BadInput if the sizes differ or the pictures are empty.
 Result<Comparison> compare(const Image& test, const Image& reference,
                            const CompareOptions& options = {});
+
+/// The same of any radiances, one beside the other (baked receivers, the covered pixels of two
+/// pictures), without FLIP. BadInput if none is finite in both. Asserts on equal lengths.
+Result<Comparison> compare(std::span<const Rgb> test, std::span<const Rgb> reference);
 
 /// |t − r| · scale per channel: the picture of an error. Asserts on equal sizes.
 Image difference(const Image& test, const Image& reference, float scale);
