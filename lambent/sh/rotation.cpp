@@ -29,7 +29,10 @@ RotationKernels bestKernels() {
 
 [[maybe_unused]] bool isRotation(const Mat3d& q, double tolerance) {
   const Mat3d excess = q.transpose() * q - Mat3d::Identity();
-  return excess.cwiseAbs().maxCoeff() <= tolerance && q.row(0).cross(q.row(1)).dot(q.row(2)) > 0;
+  const double determinant = q(0, 0) * (q(1, 1) * q(2, 2) - q(1, 2) * q(2, 1)) -
+                             q(0, 1) * (q(1, 0) * q(2, 2) - q(1, 2) * q(2, 0)) +
+                             q(0, 2) * (q(1, 0) * q(2, 1) - q(1, 1) * q(2, 0));
+  return excess.cwiseAbs().maxCoeff() <= tolerance && determinant > 0;
 }
 
 }  // namespace
