@@ -17,7 +17,7 @@ using nlohmann::json;
 using Bytes = std::span<const std::byte>;
 
 /// An accessor without a buffer view is all zeros and no bytes of the file bound its size.
-constexpr std::int64_t kMaxImplicitCount = std::int64_t(1) << 24;
+constexpr std::int64_t kMaxImplicitCount = std::int64_t(1) << 22;
 
 std::size_t componentSize(Component component) {
   switch (component) {

@@ -193,6 +193,7 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
 }
 
 GltfBuilder::GltfBuilder(GltfBuilder&&) noexcept = default;
+GltfBuilder& GltfBuilder::operator=(GltfBuilder&&) noexcept = default;
 GltfBuilder::~GltfBuilder() = default;
 
 nlohmann::json& GltfBuilder::json() {

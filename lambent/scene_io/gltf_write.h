@@ -42,6 +42,7 @@ class GltfBuilder {
  public:
   explicit GltfBuilder(const scene::Scene& scene);
   GltfBuilder(GltfBuilder&&) noexcept;
+  GltfBuilder& operator=(GltfBuilder&&) noexcept;
   ~GltfBuilder();
 
   /// Appends bytes to the binary chunk, 4-aligned. Returns the index of the new bufferView.

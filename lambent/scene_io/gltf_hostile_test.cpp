@@ -1,0 +1,183 @@
+// Files that are damaged, or made to do harm.
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "lambent/scene/shapes.h"
+#include "lambent/scene_io/gltf_read.h"
+#include "lambent/scene_io/test_files.h"
+
+namespace lambent::scene_io {
+namespace {
+
+using nlohmann::json;
+
+GltfBuilder triangle() {
+  scene::Mesh mesh = scene::gridPlane(1, 1, 1, 1);
+  mesh.name = "tile";
+  return GltfBuilder(scene::sceneOf(std::move(mesh)));
+}
+
+class GltfHostile : public testing::Test {
+ protected:
+  std::filesystem::path write(const GltfBuilder& gltf) {
+    return folder_.write("file.glb", *gltf.glb());
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(GltfHostile, MissingEmptyAndForeignFiles) {
+  expectBadInput(folder_ / "none.glb", {"No such file"});
+  expectBadInput(folder_.write("empty.glb", std::string_view()), {"empty"});
+  expectBadInput(folder_.write("magic.glb", std::string_view("glTX\2\0\0\0 something else")),
+                 {"does not begin with \"glTF\""});
+  expectBadInput(folder_.write("text.gltf", std::string_view("{\"asset\": ")), {"JSON"});
+  expectBadInput(folder_.write("old.gltf", std::string_view(R"({"asset": {"version": "1.0"}})")),
+                 {"version"});
+  expectBadInput(folder_.write("a.stl", std::string_view("solid")), {".glb, .gltf, .obj or .ply"});
+  std::filesystem::create_directory(folder_ / "folder.glb");
+  expectBadInput(folder_ / "folder.glb", {});
+}
+
+TEST_F(GltfHostile, NoTriangles) {
+  expectBadInput(write(GltfBuilder(scene::Scene())), {"no triangles"});
+  GltfBuilder gltf = triangle();
+  gltf.json()["meshes"][0]["primitives"][0]["mode"] = 0;
+  expectBadInput(write(gltf), {"no triangles"});
+}
+
+TEST_F(GltfHostile, PositionsThatAreNotFiniteNameTheVertex) {
+  for (float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30f}) {
+    scene::Mesh mesh = scene::gridPlane(1, 1, 2, 2);
+    mesh.name = "tile";
+    mesh.positions[4].y() = bad;
+    expectBadInput(write(GltfBuilder(scene::sceneOf(mesh))), {"mesh \"tile\"", "vertex 4"});
+  }
+}
+
+TEST_F(GltfHostile, IndicesOutOfRangeNameTriangleAndIndex) {
+  scene::Mesh mesh = scene::gridPlane(1, 1, 1, 1);
+  mesh.triangles[1][2] = 77;
+  expectBadInput(write(GltfBuilder(scene::sceneOf(mesh))),
+                 {"index 5", "triangle 1", "vertex 77 of 4"});
+}
+
+TEST_F(GltfHostile, AccessorsBeyondTheirBuffers) {
+  const auto broken = [&](auto change, std::initializer_list<std::string> parts) {
+    GltfBuilder gltf = triangle();
+    change(gltf.json());
+    expectBadInput(write(gltf), parts);
+  };
+  for (const json& count : {json(5), json(4000000000u), json(9e15), json(-1), json("4")}) {
+    broken([&](json& j) { j["accessors"][0]["count"] = count; }, {"accessor 0"});
+  }
+  broken([](json& j) { j["accessors"][0]["byteOffset"] = 1 << 30; }, {"accessor 0", "beyond"});
+  broken([](json& j) { j["accessors"][0]["byteOffset"] = -8; }, {"accessor 0"});
+  broken([](json& j) { j["accessors"][0]["componentType"] = 5124; }, {"componentType"});
+  broken([](json& j) { j["accessors"][0]["type"] = "VEC9"; }, {"type"});
+  broken([](json& j) { j["accessors"][0]["bufferView"] = 99; }, {"bufferView 99"});
+  broken([](json& j) { j["bufferViews"][0]["byteLength"] = 1u << 31; }, {"bufferView 0", "beyond"});
+  broken([](json& j) { j["bufferViews"][0]["byteOffset"] = 9e15; }, {"bufferView 0"});
+  broken([](json& j) { j["bufferViews"][0]["byteStride"] = 0; }, {"byteStride"});
+  broken([](json& j) { j["bufferViews"][0]["buffer"] = 3; }, {"buffer"});
+  broken(
+      [](json& j) {
+        j["accessors"][0].erase("bufferView");
+        j["accessors"][0]["count"] = 4000000000u;
+      },
+      {"absurd"});
+  broken([](json& j) { j["nodes"][0]["mesh"] = 12; }, {"mesh 12"});
+  broken([](json& j) { j["meshes"][0]["primitives"][0]["material"] = 5; }, {"material 5"});
+  broken([](json& j) { j["nodes"][0]["scale"] = {1, "x", 1}; }, {"node 0", "transform"});
+}
+
+TEST_F(GltfHostile, NodeCycles) {
+  GltfBuilder gltf = triangle();
+  gltf.json()["nodes"][0]["children"] = {0};
+  expectBadInput(write(gltf), {"node 0", "twice"});
+  gltf = triangle();
+  gltf.json()["nodes"].push_back({{"children", {2}}});
+  gltf.json()["nodes"].push_back({{"children", {1}}});
+  gltf.json()["scenes"][0]["nodes"] = {1};
+  expectBadInput(write(gltf), {"twice"});
+  gltf.json()["scenes"][0]["nodes"] = {-1};
+  expectBadInput(write(gltf), {"node -1"});
+  gltf.json().erase("scenes");
+  EXPECT_TRUE(load(write(gltf)));  // the cycle has no root
+}
+
+TEST_F(GltfHostile, DeepNodesAndDeepJson) {
+  GltfBuilder gltf = triangle();
+  json& nodes = gltf.json()["nodes"];
+  for (int i = 1; i < 20000; ++i) nodes.push_back({{"children", {i + 1}}});
+  nodes.push_back({{"mesh", 0}});
+  gltf.json()["scenes"][0]["nodes"] = {1};
+  EXPECT_TRUE(load(write(gltf)));
+  std::string deep = R"({"asset": {"version": "2.0"}, "extras": )" + std::string(100000, '[');
+  expectBadInput(folder_.write("deep.gltf", deep), {});
+  expectBadInput(folder_.write("deep.gltf", deep + std::string(100000, ']') + "}"), {});
+}
+
+TEST_F(GltfHostile, RequiredExtensionsAreNamedWithARemedy) {
+  for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+    GltfBuilder gltf = triangle();
+    gltf.useExtension(name, true);
+    expectBadInput(write(gltf), {name, "copy IN.glb"});
+  }
+  for (const char* name : {"KHR_materials_unlit", "KHR_texture_transform"}) {
+    GltfBuilder gltf = triangle();
+    gltf.useExtension(name, true);
+    EXPECT_TRUE(load(write(gltf)));
+  }
+}
+
+TEST_F(GltfHostile, SkinsAndMorphsAreIgnoredAndSaid) {
+  GltfBuilder gltf = triangle();
+  gltf.json()["nodes"][0]["skin"] = 0;
+  gltf.json()["nodes"][0]["translation"] = {5, 5, 5};
+  gltf.json()["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+  const auto loaded = load(write(gltf));
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(countOf(loaded->findings, "skin-ignored"), 1u);
+  EXPECT_EQ(countOf(loaded->findings, "morph-ignored"), 1u);
+  EXPECT_NEAR(scene::bounds(loaded->scene).upper.x(), 0.5f, 1e-6f);
+}
+
+TEST_F(GltfHostile, AnImageThatClaimsTooMuchIsLeftOut) {
+  scene::Material material;
+  material.baseColorTexture = 0;
+  scene::Scene s = scene::sceneOf(scene::gridPlane(1, 1, 1, 1), material);
+  scene::Texture texture;
+  texture.width = texture.height = 1;
+  texture.rgba.assign(4, 255);
+  s.textures = {texture};
+  std::string glb;
+  {
+    const auto bytes = *GltfBuilder(s).glb();
+    glb.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  const std::size_t header = glb.find("IHDR");
+  ASSERT_NE(header, std::string::npos);
+  glb.replace(header + 4, 8, std::string("\0\0\x40\0\0\0\x40\0", 8));  // 16384 × 16384
+  const auto loaded = load(folder_.write("image.glb", std::string_view(glb)));
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(countOf(loaded->findings, "texture-unreadable"), 1u);
+  EXPECT_EQ(loaded->scene.materials[0].baseColorTexture, -1);
+}
+
+TEST_F(GltfHostile, TruncatedAndDamagedFilesNeverCrash) {
+  scene::Material material;
+  material.baseColorTexture = 0;
+  scene::Scene s = scene::sceneOf(scene::uvSphere(1, 4, 3), material);
+  scene::Texture texture;
+  texture.width = texture.height = 4;
+  texture.rgba.assign(64, 200);
+  s.textures = {texture};
+  s.cameras.emplace_back();
+  const auto bytes = *GltfBuilder(s).glb();
+  const std::string glb(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  abuse(folder_, "abused.glb", glb, 37, 3000);
+}
+
+}  // namespace
+}  // namespace lambent::scene_io
