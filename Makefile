@@ -7,7 +7,7 @@ ASAN_ROOMS ?= file math radiometry sh image scene scene_io encode asset light
 
 $(shell mkdir -p build)
 
-.PHONY: all help setup inputs configure build test demo figures bench install asan tsan format \
+.PHONY: all help setup inputs configure build everything test demo figures bench install asan tsan format \
         check-format check clean
 
 all: build
@@ -34,9 +34,12 @@ configure: setup
 	  || { cat $(BUILD)-configure.log; exit 1; }
 
 build: configure
+	@cmake --build $(BUILD) --parallel $(JOBS) --target lambent_tool
+
+everything: configure
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
-test: build inputs
+test: everything inputs
 	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure
 
 demo: build inputs
@@ -45,7 +48,7 @@ demo: build inputs
 figures: build inputs
 	@tools/figures.sh $(BUILD)/apps/lambent/lambent
 
-bench: build setup
+bench: everything
 	@tools/fetch-inputs.sh dragon
 	@bench/run.sh $(BUILD)
 

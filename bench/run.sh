@@ -19,7 +19,7 @@ for program in "$build"/bench/lambent_*_bench; do
   if [[ -n $filter && $name != *"$filter"* ]]; then continue; fi
   printf '\n== %s\n' "$name"
   if [ "$name" = bake_bench ]; then
-    "$program" "$results/$name.csv"
+    "$program" "$results/$name.csv" build/inputs
   else
     "$program" --benchmark_out="$results/$name.csv" --benchmark_out_format=csv
   fi

