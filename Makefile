@@ -17,7 +17,7 @@ help:
 	@echo 'make demo                bake a bunny, relight it, compare with the path-traced truth'
 	@echo 'make test                build and run every test'
 	@echo 'make bench               measure; CSV files under bench/results/'
-	@echo 'make figures             the pictures of docs/reproduction.md'
+	@echo 'make figures             the pictures of docs/reproduction.md (FIGURES="figure3 table1": only those)'
 	@echo 'make install PREFIX=DIR  DIR/bin/lambent, the library and its CMake package'
 	@echo 'make asan | tsan         tests under sanitizers'
 	@echo 'make check               formatting, rooms, references'
@@ -45,11 +45,13 @@ test: everything inputs
 demo: build inputs
 	@tools/demo.sh $(BUILD)/apps/lambent/lambent
 
-figures: build inputs
-	@tools/figures.sh $(BUILD)/apps/lambent/lambent
+figures: build
+	@tools/fetch-inputs.sh all
+	@cmake --build $(BUILD) --parallel $(JOBS) --target lambent_figures
+	@$(BUILD)/figures/lambent_figures build/inputs docs/images $(FIGURES)
 
 bench: everything
-	@tools/fetch-inputs.sh dragon
+	@tools/fetch-inputs.sh all
 	@bench/run.sh $(BUILD)
 
 install: build

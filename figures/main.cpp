@@ -1,0 +1,60 @@
+// Makes the pictures and tables of docs/reproduction.md.
+//
+// usage: lambent_figures INPUTS OUTPUT [--quick] [NAME …]
+//   NAME: figure3 figure9 figure10 figure11 figure12 table1 diffuse-accuracy glossy-accuracy
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <vector>
+
+#include "figures/accuracy.h"
+#include "figures/pictures.h"
+
+int main(int argc, char** argv) {
+  using namespace lambent::figures;
+  const std::vector<std::pair<std::string, std::function<void(const Studio&)>>> all = {
+      {"figure3", figure3},
+      {"figure9", figure9},
+      {"figure10", figure10},
+      {"figure11", figure11},
+      {"figure12", figure12},
+      {"table1", table1},
+      {"diffuse-accuracy", diffuseAccuracy},
+      {"glossy-accuracy", glossyAccuracy}};
+  Studio studio;
+  std::vector<std::string> words(argv + 1, argv + argc), wanted;
+  std::vector<std::string> places;
+  for (const std::string& word : words) {
+    if (word == "--quick")
+      studio.quick = true;
+    else if (places.size() < 2)
+      places.push_back(word);
+    else
+      wanted.push_back(word);
+  }
+  if (places.size() < 2) {
+    fmt::print(stderr, "usage: lambent_figures INPUTS OUTPUT [--quick] [NAME ...]\n");
+    return 2;
+  }
+  studio.inputs = places[0], studio.output = places[1];
+  std::filesystem::create_directories(studio.output);
+  for (const std::string& name : wanted) {
+    const bool known = std::any_of(all.begin(), all.end(),
+                                   [&](const auto& figure) { return figure.first == name; });
+    if (known) continue;
+    fmt::print(stderr, "figures: there is no '{}'\n", name);
+    return 2;
+  }
+  for (const auto& [name, make] : all) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;
+    const auto start = std::chrono::steady_clock::now();
+    make(studio);
+    fmt::print("{}: {:.1f} s\n\n", name,
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    std::fflush(stdout);
+  }
+  return 0;
+}

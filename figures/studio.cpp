@@ -1,0 +1,92 @@
+#include "figures/studio.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cmath>
+
+#include "lambent/encode/encoded_field.h"
+#include "lambent/image/io.h"
+#include "lambent/image/strip.h"
+#include "lambent/light/source.h"
+#include "lambent/radiometry/tone.h"
+#include "lambent/scene_io/load.h"
+#include "lambent/shade/picture.h"
+
+namespace lambent::figures {
+
+namespace {
+
+template <class T>
+T orDie(Result<T> result) {
+  if (result) return std::move(*result);
+  fmt::print(stderr, "figures: {}\n", result.error().message);
+  std::exit(1);
+}
+
+}  // namespace
+
+scene::Scene Studio::load(const std::string& file) const {
+  return orDie(scene_io::load(inputs / file)).scene;
+}
+
+light::Environment Studio::hdri(const std::string& name) const {
+  return orDie(light::parseSource((inputs / "hdri" / (name + ".exr")).string()));
+}
+
+void Studio::save(const image::Image& picture, const std::string& name) const {
+  const std::filesystem::path path = output / (name + ".png");
+  if (const Status saved = image::write(picture, path); !saved) {
+    fmt::print(stderr, "figures: {}\n", saved.error().message);
+    std::exit(1);
+  }
+  fmt::print("wrote {}\n", path.string());
+}
+
+Baked bake(const scene::Scene& scene, const transport::BakeOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const trace::RayScene rays = orDie(trace::RayScene::build(scene));
+  Findings findings;
+  const transport::TransferField field = orDie(transport::bake(scene, rays, options, {}, findings));
+  Baked baked;
+  baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  baked.asset = {scene, encode::encode(field, encode::Encoding::Float32)};
+  return baked;
+}
+
+image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                        const light::Environment& environment, const scene::Camera& camera,
+                        int width, int height) {
+  shade::PictureOptions options;
+  options.width = width, options.height = height;
+  return orDie(shade::picture(asset, light, environment, camera, options));
+}
+
+image::Image pathTrace(const scene::Scene& scene, const light::Environment& environment,
+                       const scene::Camera& camera, int width, int height, int paths, int bounces) {
+  const trace::RayScene rays = orDie(trace::RayScene::build(scene));
+  reference::PathTraceOptions options;
+  options.samples = paths, options.bounces = bounces;
+  return orDie(reference::picture(scene, rays, environment, camera, width, height, options)).mean;
+}
+
+image::Image develop(const image::Image& linear, float exposureEv) {
+  const image::Image toned = radiometry::toneMap(linear, exposureEv, radiometry::ToneCurve::Filmic);
+  return image::over(toned, Rgb::Constant(0.75f));
+}
+
+scene::Camera lookAt(const Vec3& eye, const Vec3& target, float verticalFovDegrees) {
+  const Vec3 back = (eye - target).normalized();
+  const Vec3 right = Vec3(0, 1, 0).cross(back).normalized();
+  const Vec3 up = back.cross(right);
+  scene::Camera camera;
+  camera.worldFromCamera.block<3, 1>(0, 0) = right;
+  camera.worldFromCamera.block<3, 1>(0, 1) = up;
+  camera.worldFromCamera.block<3, 1>(0, 2) = back;
+  camera.worldFromCamera.block<3, 1>(0, 3) = eye;
+  camera.verticalFov = verticalFovDegrees * float(kPi) / 180.0f;
+  return camera;
+}
+
+}  // namespace lambent::figures

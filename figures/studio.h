@@ -1,0 +1,49 @@
+// What every figure does: bake, light, take a picture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "lambent/asset/asset.h"
+#include "lambent/light/environment.h"
+#include "lambent/reference/path_tracer.h"
+#include "lambent/scene/camera.h"
+#include "lambent/transport/bake.h"
+
+namespace lambent::figures {
+
+struct Studio {
+  std::filesystem::path inputs;  ///< bunny.obj, hdri/, dragon/, teapot.obj
+  std::filesystem::path output;  ///< where pictures go
+  bool quick = false;            ///< fewer directions, paths and pixels, to try a figure out
+
+  int directions() const { return quick ? 1024 : 8192; }
+  int pixels(int full) const { return quick ? full / 2 : full; }
+  int paths(int full) const { return quick ? full / 16 : full; }
+
+  scene::Scene load(const std::string& file) const;  ///< exits with the reader's message
+  light::Environment hdri(const std::string& name) const;
+  void save(const image::Image& picture, const std::string& name) const;
+};
+
+/// A bake in memory, kept in 32 bits, and the seconds that it took.
+struct Baked {
+  asset::Asset asset;
+  double seconds = 0.0;
+};
+Baked bake(const scene::Scene& scene, const transport::BakeOptions& options);
+
+/// Linear radiance, relit by `light`; mirrors see `environment`.
+image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                        const light::Environment& environment, const scene::Camera& camera,
+                        int width, int height);
+image::Image pathTrace(const scene::Scene& scene, const light::Environment& environment,
+                       const scene::Camera& camera, int width, int height, int paths, int bounces);
+
+/// Tone-mapped over a light backdrop, ready for a sheet.
+image::Image develop(const image::Image& linear, float exposureEv);
+
+/// A camera at `eye` that looks at `target`.
+scene::Camera lookAt(const Vec3& eye, const Vec3& target, float verticalFovDegrees);
+
+}  // namespace lambent::figures
