@@ -179,47 +179,135 @@ LAMBENT_INLINE void decode(const Number* in, int count, float* out) {
   }
 }
 
-// Rows are read 16 numbers at a time past their ends: what lies there meets the light's zeros.
-LAMBENT_INLINE void multiply(const float* matrix, int rows, int columns, const float* light,
-                             int channel, int channels, float* out) {
+// What one row gives before its 16 lanes are added up. Rows are read 16 numbers at a time past
+// their ends: what lies there meets the light's zeros.
+template <int kChannels, class Number>
+LAMBENT_INLINE void multiplyRow(const Number* row, int columns, const float* light, V (&sum)[3]) {
   const int padded = paddedColumns(columns);
-  const float* lightR = light + (channels == 3 ? channel * padded : 0);
-  for (int i = 0; i < rows; ++i) {
-    const float* row = matrix + std::ptrdiff_t(i) * columns;
-    if (channels == 3) {
-      V sum = {};
-      for (int j = 0; j < columns; j += kBlock) sum += load(row + j) * load(lightR + j);
-      const V4 s = foldToFour(sum);
-      out[channel * rows + i] = (s[0] + s[2]) + (s[1] + s[3]);
-    } else {
-      V r = {}, g = {}, b = {};
-      for (int j = 0; j < columns; j += kBlock) {
-        const V m = load(row + j);
-        r += m * load(light + j);
-        g += m * load(light + padded + j);
-        b += m * load(light + 2 * padded + j);
-      }
-      const V4 fr = foldToFour(r), fg = foldToFour(g), fb = foldToFour(b);
-      const V4 rg =
-          __builtin_shufflevector(fr, fg, 0, 1, 4, 5) + __builtin_shufflevector(fr, fg, 2, 3, 6, 7);
-      out[i] = rg[0] + rg[1];
-      out[rows + i] = rg[2] + rg[3];
-      out[2 * rows + i] = (fb[0] + fb[2]) + (fb[1] + fb[3]);
+  V r = {}, g = {}, b = {};
+  for (int j = 0; j < columns; j += kBlock) {
+    const V m = load(row + j);
+    r += m * load(light + j);
+    if (kChannels == 3) {
+      g += m * load(light + padded + j);
+      b += m * load(light + 2 * padded + j);
     }
+  }
+  sum[0] = r;
+  sum[1] = g;
+  sum[2] = b;
+}
+
+#if defined(__AVX512F__)
+
+// Lanes of several rows are added up together: of two vectors with groups of 2w lanes, the first
+// halves of all groups plus the second halves are one vector with groups of w lanes.
+template <int kWidth>
+LAMBENT_INLINE V pairwise(V a, V b);
+template <>
+LAMBENT_INLINE V pairwise<8>(V a, V b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23) +
+         __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30,
+                                 31);
+}
+template <>
+LAMBENT_INLINE V pairwise<4>(V a, V b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27) +
+         __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31);
+}
+template <>
+LAMBENT_INLINE V pairwise<2>(V a, V b) {
+  return __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13, 16, 17, 20, 21, 24, 25, 28, 29) +
+         __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15, 18, 19, 22, 23, 26, 27, 30, 31);
+}
+template <>
+LAMBENT_INLINE V pairwise<1>(V a, V b) {
+  return __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30) +
+         __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+}
+
+template <int kChannels, int kRows, class Number>
+LAMBENT_INLINE void multiplyRows(const Number* rows, int columns, const float* light, V (&sum)[3]) {
+  if constexpr (kRows == 1) {
+    multiplyRow<kChannels>(rows, columns, light, sum);
+  } else {
+    V a[3], b[3];
+    multiplyRows<kChannels, kRows / 2>(rows, columns, light, a);
+    multiplyRows<kChannels, kRows / 2>(rows + std::ptrdiff_t(kRows / 2) * columns, columns, light,
+                                       b);
+    for (int c = 0; c < kChannels; ++c) sum[c] = pairwise<kBlock / kRows>(a[c], b[c]);
+  }
+}
+
+/// The first rows, as many as can be done 16 or 8 at a time.
+template <int kChannels, class Number>
+LAMBENT_INLINE int multiplyGroups(const Number* matrix, int rows, int columns, const float* light,
+                                  float* out) {
+  int i = 0;
+  V sum[3];
+  for (; i + 16 <= rows; i += 16) {
+    multiplyRows<kChannels, 16>(matrix + std::ptrdiff_t(i) * columns, columns, light, sum);
+    for (int c = 0; c < kChannels; ++c) store(out + c * rows + i, sum[c]);
+  }
+  for (; i + 8 <= rows; i += 8) {
+    multiplyRows<kChannels, 8>(matrix + std::ptrdiff_t(i) * columns, columns, light, sum);
+    for (int c = 0; c < kChannels; ++c) {
+      const V all = pairwise<1>(sum[c], sum[c]);
+      const V8 eight = __builtin_shufflevector(all, all, 0, 1, 2, 3, 4, 5, 6, 7);
+      _mm256_storeu_ps(out + c * rows + i, (__m256)eight);
+    }
+  }
+  return i;
+}
+
+#else
+
+template <int kChannels, class Number>
+LAMBENT_INLINE int multiplyGroups(const Number*, int, int, const float*, float*) {
+  return 0;
+}
+
+#endif
+
+/// out: kChannels vectors of `rows` results, one for each of the light's vectors.
+template <int kChannels, class Number>
+LAMBENT_INLINE void multiply(const Number* matrix, int rows, int columns, const float* light,
+                             float* out) {
+  for (int i = multiplyGroups<kChannels>(matrix, rows, columns, light, out); i < rows; ++i) {
+    V sum[3];
+    multiplyRow<kChannels>(matrix + std::ptrdiff_t(i) * columns, columns, light, sum);
+    for (int c = 0; c < kChannels; ++c) {
+      const V4 four = foldToFour(sum[c]);
+      out[c * rows + i] = (four[0] + four[2]) + (four[1] + four[3]);
+    }
+  }
+}
+
+template <class Number>
+LAMBENT_INLINE void multiplyReceiver(const Number* matrices, int channels, int rows, int columns,
+                                     const float* light, float* out) {
+  if (channels == 1) {
+    multiply<3>(matrices, rows, columns, light, out);
+  } else {
+    for (int c = 0; c < 3; ++c)
+      multiply<1>(matrices + std::ptrdiff_t(c) * rows * columns, rows, columns,
+                  light + c * paddedColumns(columns), out + c * rows);
   }
 }
 
 template <class Number>
 void matrix(const Number* matrices, std::size_t receivers, int channels, int rows, int columns,
             const float* light, float* scratch, float* out) {
-  const int size = rows * columns;
-  for (int i = 0; i < kBlock; ++i) scratch[size + i] = 0.0f;
-  for (std::size_t p = 0; p < receivers; ++p) {
-    float* result = out + p * 3 * rows;
-    for (int c = 0; c < channels; ++c) {
-      decode(matrices + (p * channels + c) * size, size, scratch);
-      multiply(scratch, rows, columns, light, c, channels, result);
-    }
+  const int size = channels * rows * columns;
+  std::size_t p = 0;
+  for (; (receivers - p) * size >= std::size_t(size) + kBlock; ++p)
+    multiplyReceiver(matrices + p * size, channels, rows, columns, light, out + p * 3 * rows);
+  // The last ones from where reading past their ends is allowed.
+  for (; p < receivers; ++p) {
+    decode(matrices + p * size, size, scratch);
+    for (int i = 0; i < kBlock; ++i) scratch[size + i] = 0.0f;
+    multiplyReceiver(static_cast<const float*>(scratch), channels, rows, columns, light,
+                     out + p * 3 * rows);
   }
 }
 

@@ -17,7 +17,7 @@ using DiffuseKernel = void (*)(const Number* blocks, std::size_t blockCount, int
                                int stride, int count, const float* light, float* out);
 
 /// Glossy transfer, [receiver][channel][rows][columns], times RGB light. light: three vectors of
-/// paddedColumns(columns) floats, the padding zero. scratch: rows·columns + kBlock floats.
+/// paddedColumns(columns) floats, the padding zero. scratch: channels·rows·columns + kBlock floats.
 /// out: [receiver][3][rows].
 template <class Number>
 using MatrixKernel = void (*)(const Number* matrices, std::size_t receivers, int channels, int rows,

@@ -112,7 +112,7 @@ std::vector<float> transferredRadiance(const EncodedMesh& mesh, const sh::RgbCoe
   const Kernels kernels = kernelsFor(math::bestIsa());
   std::vector<float> out(receivers * 3 * rows);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers, 256), [&](const auto& range) {
-    std::vector<float> scratch(std::size_t(rows) * columns + kBlock);
+    std::vector<float> scratch(size + kBlock);
     float* at = out.data() + range.begin() * 3 * rows;
     if (mesh.matrices.encoding == Encoding::Float16)
       kernels.matrixHalf(mesh.matrices.half.data() + range.begin() * size, range.size(), channels,

@@ -209,7 +209,7 @@ TEST(Kernels, EveryInstructionSetGivesTheSameTransferredRadiance) {
     std::vector<float> light(3 * paddedColumns(columns));
     for (int c = 0; c < 3; ++c)
       for (int j = 0; j < columns; ++j) light[c * paddedColumns(columns) + j] = float(c + j) - 3;
-    std::vector<float> scratch(rows * columns + kBlock);
+    std::vector<float> scratch(channels * rows * columns + kBlock);
     std::vector<float> first(receivers * 3 * rows), firstHalf(first.size());
     const Kernels base = kernelsFor(math::Isa::Baseline);
     base.matrixSingle(single.data(), receivers, channels, rows, columns, light.data(),
