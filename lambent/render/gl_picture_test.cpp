@@ -206,7 +206,7 @@ TEST(GlPicture, StopsWhenAsked) {
   const light::Environment sky = shade::test::sky();
   int calls = 0;
   const auto result = render::picture(asset, sky.project(5), sky, kCamera, small(16),
-                              [&](const ProgressUpdate&) { return ++calls < 3; });
+                                      [&](const ProgressUpdate&) { return ++calls < 3; });
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::Cancelled);
   EXPECT_EQ(calls, 3);

@@ -7,6 +7,7 @@
 #include "lambent/shade/picture.h"
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 
 #include <tbb/parallel_for.h>
@@ -64,9 +65,12 @@ Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficient
   image::Image image(width, height);
   image.alpha.resize(image.pixels.size());
 
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kBetweenReports = std::chrono::milliseconds(100);
   std::atomic<std::uint64_t> pixelsDone = 0;
   std::atomic<bool> stop = false;
-  std::mutex reporting;
+  std::mutex reporting;  // guards nextReport too
+  Clock::time_point nextReport = Clock::now();
   tbb::parallel_for(0, height, [&](int y) {
     if (stop.load(std::memory_order_relaxed)) return;
     const trace::FlushDenormals flush;
@@ -86,7 +90,9 @@ Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficient
     pixelsDone += width;
     if (progress) {
       const std::unique_lock lock(reporting, std::try_to_lock);
-      if (lock && !progress({"picture", pixelsDone, image.pixels.size(), "pixels"})) stop = true;
+      if (!lock || Clock::now() < nextReport) return;
+      nextReport = Clock::now() + kBetweenReports;
+      if (!progress({"picture", pixelsDone, image.pixels.size(), "pixels"})) stop = true;
     }
   });
   if (stop) return report::cancelled();

@@ -1,6 +1,7 @@
 #include "lambent/shade/picture.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "lambent/sh/basis.h"
 #include "lambent/shade/shade.h"
@@ -146,6 +147,28 @@ TEST(Picture, SaysWhatDoesNotFit) {
   asset::Asset without = asset;
   without.transfer.meshes.clear();
   EXPECT_STREQ(kindOf(without, small(8, 1)), "input");
+}
+
+TEST(Picture, HasTheSameBytesWhateverTheThreads) {
+  asset::Asset asset;
+  test::addGlossy(asset, test::sphere(Vec3(0, 1, 0), 1.0f, 12), 5, 4, 1, encode::Encoding::Float16);
+  test::addTexels(asset, test::floor(Vec3::Zero(), 2.0f), Vec3::UnitY(), 16, 16, 0,
+                  encode::Encoding::Float16);
+  const light::Environment sky = test::sky();
+  const sh::RgbCoefficients light = sky.project(5);
+  const scene::Camera camera = cameraAt(Vec3(1.5f, 2, 5), Vec3::Zero());
+  PictureOptions options = small(48, 4);
+  options.background = true;
+  std::vector<image::Image> images;
+  for (const std::size_t threads : {1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    auto image = picture(asset, light, sky, camera, options);
+    ASSERT_TRUE(image) << image.error().message;
+    images.push_back(std::move(*image));
+  }
+  for (const image::Image& image : images)
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      ASSERT_TRUE((image.pixels[i] == images[0].pixels[i]).all()) << i;
 }
 
 TEST(Picture, StopsWhenAsked) {
