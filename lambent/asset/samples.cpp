@@ -1,5 +1,6 @@
-// Terms: Â_l, convolution factors of the clamped cosine (Ramamoorthi 2001 eq. 8); y_i, the basis of
-// three bands, written out here by hand so that the samples check the basis and not themselves.
+// Terms: Â_l, convolution factors of the clamped cosine (ramamoorthi2001efficient eq. 8); y_i, the
+// basis of three bands, written out here by hand so that the samples check the basis and not
+// themselves.
 #include "lambent/asset/samples.h"
 
 #include <array>

@@ -11,7 +11,7 @@
 namespace lambent::asset {
 
 /// A square of grey ρ = 0.5 that faces +y with nothing around it, 3 bands, 32-bit floats. All four
-/// receivers hold M_i = ρ/π · Â_l · y_i(+y) (Ramamoorthi 2001 eq. 8).
+/// receivers hold M_i = ρ/π · Â_l · y_i(+y) (ramamoorthi2001efficient eq. 8).
 Asset unoccludedSquare();
 
 /// One mesh of every kind: vertex vectors (float16, 3 channels, base colour outside), texel vectors
