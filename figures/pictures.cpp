@@ -82,30 +82,37 @@ void figure3(const Studio& studio) {
 }
 
 void figure9(const Studio& studio) {
-  const int side = studio.pixels(400);
+  const int side = studio.pixels(360);
   const scene::Scene scene = ringOnGround();
   BakeOptions options = optionsFor(studio, TransferKind::Interreflected, 1);
   options.directions = studio.quick ? 2048 : 16384;
   const int texels = studio.quick ? 128 : 256;
   options.texels = {{0, texels, texels}};
   const Baked baked = bake(scene, options);
-  const scene::Camera camera = lookAt(Vec3(0, 4.2f, 4.4f), Vec3(0, 0, 0.1f), 40);
-  const light::Environment world = skyAndSun();
+  fmt::print("ring: 5 bands, {}x{} texels, {} directions, {:.1f} s\n", texels, texels,
+             options.directions, baked.seconds);
+  options.bands = 10;
+  const Baked fine = bake(scene, options);
+  const scene::Camera camera = lookAt(Vec3(0, 4.2f, 4.4f), Vec3(0, 0, 0.1f), 36);
+  const light::Environment world =
+      light::Environment::uniform(Rgb(0.25f, 0.3f, 0.38f)) +
+      light::Environment::disc(Vec3(-0.75f, 0.6f, 0.3f).normalized(), 16 * kPi / 180,
+                               Rgb(60.0f, 54.0f, 44.0f));
   Sheet sheet;
   sheet.rowLabels = {"0 deg", "120 deg"};
-  sheet.columnLabels = {"baked, 5 bands", "path-traced, same light", "path-traced, whole light"};
+  sheet.columnLabels = {"baked, 5 bands", "baked, 10 bands", "path-traced, 5 bands",
+                        "path-traced, all"};
   for (const float degrees : {0.0f, 120.0f}) {
     const light::Environment turned = world.rotated(turnedY(degrees));
     const sh::RgbCoefficients light = turned.project(5);
     const light::Environment banded = light::Environment::harmonics(light);
     sheet.rows.push_back(
-        {develop(photograph(baked.asset, light, banded, camera, side, side), -0.3f),
-         develop(pathTrace(scene, banded, camera, side, side, studio.paths(1024), 1), -0.3f),
-         develop(pathTrace(scene, turned, camera, side, side, studio.paths(2048), 1), -0.3f)});
+        {develop(photograph(baked.asset, light, turned, camera, side, side), -0.6f),
+         develop(photograph(fine.asset, turned.project(10), turned, camera, side, side), -0.6f),
+         develop(pathTrace(scene, banded, camera, side, side, studio.paths(1024), 1), -0.6f),
+         develop(pathTrace(scene, turned, camera, side, side, studio.paths(4096), 1), -0.6f)});
   }
   studio.save(compose(sheet), "figure9");
-  fmt::print("ring: {}x{} texels, {} directions, {:.1f} s\n", texels, texels, options.directions,
-             baked.seconds);
 }
 
 void figure10(const Studio& studio) {
@@ -180,10 +187,9 @@ void figure11(const Studio& studio) {
 void figure12(const Studio& studio) {
   const int side = studio.pixels(400);
   scene::Scene teapot = studio.load("teapot.obj");
-  for (scene::Mesh& mesh : teapot.meshes) mesh = smoothlySubdivided(std::move(mesh), 2);
-  scene::Scene ground = teapot;
+  for (scene::Mesh& mesh : teapot.meshes) mesh = smoothlySubdivided(welded(mesh), 2);
   const scene::Camera camera = portrait(teapot);
-  const light::Environment environment = studio.hdri("venice").rotated(turnedY(140));
+  const light::Environment environment = studio.hdri("venice").rotated(turnedY(60));
   const sh::RgbCoefficients light = environment.project(5);
   Sheet sheet;
   sheet.columnLabels = {"shadowed", "1 bounce", "2 bounces", "4 bounces", "path-traced"};
@@ -213,7 +219,7 @@ void table1(const Studio& studio) {
     std::string shape, seedTime, seedRate;
   };
   scene::Scene teapot = studio.load("teapot.obj");
-  for (scene::Mesh& mesh : teapot.meshes) mesh = smoothlySubdivided(std::move(mesh), 3);
+  for (scene::Mesh& mesh : teapot.meshes) mesh = smoothlySubdivided(welded(mesh), 3);
   const scene::Material diffuse = diffuseMaterial(Rgb::Constant(0.7f));
   const scene::Material glossy = glossyMaterial(Rgb::Constant(0.7f), 16);
   const scene::Scene bunny = studio.load("bunny.obj");

@@ -1,5 +1,6 @@
 #include "figures/scenes.h"
 
+#include <array>
 #include <map>
 
 #include "lambent/scene/shapes.h"
@@ -78,6 +79,25 @@ struct Patch {
 };
 
 }  // namespace
+
+scene::Mesh welded(const scene::Mesh& mesh) {
+  scene::Mesh out;
+  out.name = mesh.name, out.material = mesh.material;
+  std::map<std::array<float, 3>, std::uint32_t> places;
+  std::vector<std::uint32_t> target;
+  for (const Vec3& p : mesh.positions) {
+    const auto [at, isNew] =
+        places.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::uint32_t>(out.positions.size()));
+    if (isNew) out.positions.push_back(p);
+    target.push_back(at->second);
+  }
+  for (const scene::Triangle& t : mesh.triangles) {
+    const scene::Triangle w = {target[t[0]], target[t[1]], target[t[2]]};
+    if (w[0] != w[1] && w[1] != w[2] && w[2] != w[0]) out.triangles.push_back(w);
+  }
+  scene::computeNormals(out);
+  return out;
+}
 
 scene::Mesh smoothlySubdivided(scene::Mesh mesh, int levels) {
   for (int level = 0; level < levels; ++level) {

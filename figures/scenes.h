@@ -18,6 +18,10 @@ scene::Scene ringOnGround();
 /// One polygon over a ground plane (Figure 10). Mesh 0 is the ground, with UVs.
 scene::Scene polygonOverGround();
 
+/// One vertex where several have the same position, with a smooth normal: for models whose patches
+/// were tessellated one by one. UVs and colours are dropped.
+scene::Mesh welded(const scene::Mesh& mesh);
+
 /// Every triangle in 4^levels, bent by its normals into a smooth surface (curved PN triangles,
 /// Vlachos 2001: [vlachos2001curved]): coarse models get round silhouettes.
 scene::Mesh smoothlySubdivided(scene::Mesh mesh, int levels);

@@ -45,6 +45,8 @@ image::Image compose(const Sheet& sheet) {
     for (const image::Image& cell : row)
       width = std::max(width, cell.width), height = std::max(height, cell.height);
   }
+  for (const std::string& label : sheet.columnLabels)
+    width = std::max(width, textWidth(label, kLetter) + kGap);
   int left = 0;
   for (const std::string& label : sheet.rowLabels)
     left = std::max(left, textWidth(label, kLetter) + 2 * kGap);
@@ -63,7 +65,7 @@ image::Image compose(const Sheet& sheet) {
       drawText(out, kGap, y + height / 2 - 4 * kLetter, sheet.rowLabels[r], kLetter);
     for (std::size_t c = 0; c < sheet.rows[r].size(); ++c) {
       const image::Image& cell = sheet.rows[r][c];
-      const int x = left + kGap + static_cast<int>(c) * (width + kGap);
+      const int x = left + kGap + static_cast<int>(c) * (width + kGap) + (width - cell.width) / 2;
       for (int py = 0; py < cell.height; ++py)
         for (int px = 0; px < cell.width; ++px) out.at(x + px, y + py) = cell.at(px, py);
     }
