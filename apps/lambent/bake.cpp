@@ -93,12 +93,13 @@ Status runBake(BakeArguments arguments, Console& console) {
   const trace::Edges edges = options.kind == transport::TransferKind::Interreflected
                                  ? trace::Edges::Watertight
                                  : trace::Edges::Fast;
-  auto rays =
-      console.stage("ray structure", [&] { return trace::RayScene::build(*scene, edges); });
+  auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene, edges); });
   if (!rays) return rays.error();
   Findings findings;
   auto field = transport::bake(*scene, *rays, options, console.progress(), findings);
   console.report(findings);
+  if (!field && field.error().kind == ErrorKind::BadInput)
+    return badInput(arguments.scene.path.string() + ": " + field.error().message);
   if (!field) return field.error();
 
   asset::Asset asset;
@@ -151,6 +152,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<BakeArguments>();
   CLI::App* app = root.add_subcommand(
       "bake", "Simulate once how light moves over a scene, and write an asset to relight");
+  app->group("Verbs");
   app->footer(std::string(kExamples));
   transport::BakeOptions& options = arguments->options;
   arguments->scene.addTo(*app);
@@ -179,7 +181,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
   app->add_option("--directions", options.directions,
                   "Directions over the whole sphere, the same for every receiver. Twice as many: "
                   "twice the time, and a smaller error")
-      ->check(CLI::Range(1, 1 << 24))
+      ->check(CLI::Range(16, 65536))
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");

@@ -239,6 +239,7 @@ Status runCompare(const Arguments& arguments, Console& console) {
 Verb addCompare(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app = root.add_subcommand("compare", "Say how far one picture is from another");
+  app->group("Verbs");
   app->footer(std::string(kExamples));
   app->add_option("A", arguments->truth,
                   "The truth: .exr, .hdr or .png; or .csv or .ply from 'lambent shade'")

@@ -63,13 +63,21 @@ std::string wrapped(std::string_view text, std::size_t width, std::string_view i
   return out;
 }
 
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
+                                     CLI::AppFormatMode mode) const {
+  std::string help = CLI::Formatter::make_help(app, std::move(name), mode);
+  for (std::size_t at; (at = help.find("\n\n\n")) != help.npos;) help.erase(at, 1);
+  return help;
+}
+
 std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {
   const std::size_t left = get_column_width();
   std::string description = make_option_desc(option);
   if (!option->get_default_str().empty())
     description += " (default: " + option->get_default_str() + ")";
   const std::string indent(left, ' ');
-  std::string name = "  " + make_option_name(option, isPositional) + make_option_opts(option);
+  std::string name = "  " + make_option_name(option, isPositional);
+  if (!isPositional) name += make_option_opts(option);
   if (name.size() + 2 > left)
     name += "\n" + indent;
   else

@@ -15,6 +15,8 @@ extern const std::string_view kSourceHelp;      ///< how a SOURCE of light is wr
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter();
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override;
   std::string make_option(const CLI::Option* option, bool isPositional) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
   std::string make_usage(const CLI::App* app, std::string name) const override;

@@ -114,6 +114,7 @@ Verb addInfo(CLI::App& root, ConsoleOptions& common) {
   auto path = std::make_shared<std::filesystem::path>();
   CLI::App* app =
       root.add_subcommand("info", "Say what is in a scene, an asset, an image or a light");
+  app->group("Verbs");
   app->footer(std::string(kExamples));
   app->add_option("FILE", *path, "The file to look into")->required();
   addCommonOptions(*app, common);

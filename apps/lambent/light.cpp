@@ -54,6 +54,7 @@ Verb addLight(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app = root.add_subcommand(
       "light", "Project a light to spherical harmonics, and write them as JSON");
+  app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
   arguments->light.addTo(*app, true);
   app->add_option("-o,--output", arguments->output, "The coefficients to write, a .json")

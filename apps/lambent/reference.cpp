@@ -116,6 +116,7 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app =
       root.add_subcommand("reference", "Path-trace the scene: the truth to compare with");
+  app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
   arguments->scene.addTo(*app);
   arguments->light.addTo(*app, false);

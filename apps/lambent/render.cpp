@@ -97,6 +97,7 @@ Status runRender(const Arguments& arguments, Console& console) {
 Verb addRender(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app = root.add_subcommand("render", "Relight an asset and draw a picture");
+  app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
   app->add_option("ASSET", arguments->asset, "A .glb that 'lambent bake' wrote")->required();
   arguments->light.addTo(*app, false);

@@ -81,6 +81,7 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app = root.add_subcommand(
       "shade", "Relight an asset and write the exit radiance of every receiver as numbers");
+  app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
   app->add_option("ASSET", arguments->asset, "A .glb that 'lambent bake' wrote")->required();
   arguments->light.addTo(*app, false);

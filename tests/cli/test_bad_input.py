@@ -128,11 +128,12 @@ class BadScene(ToolTest):
 
     def test_overlapping_uvs_where_texels_are_asked_for(self):
         self.write("plane.obj", quad_obj(((0, 0), (1, 0), (1, 1), (1, 0))))
-        self.refused("bake", "plane.obj", *OUT, "--texels", "16x16", says="overlap")
+        self.refused("bake", "plane.obj", *OUT, "--texels", "16x16", says=["plane.obj", "overlap"])
 
     def test_missing_uvs_where_texels_are_asked_for(self):
         self.write("ball.obj", ball_obj())
-        self.refused("bake", "ball.obj", *OUT, "--texels", "0=16x16", says="UV")
+        self.refused("bake", "ball.obj", *OUT, "--texels", "0=16x16",
+                     says=["ball.obj", "texture coordinates"])
 
     def test_a_plain_glb_is_no_asset(self):
         self.write("plain.glb", glb(*gltf_parts(*ball())))
