@@ -106,26 +106,44 @@ std::size_t computeNormals(Mesh& mesh, std::span<const std::uint32_t> groups) {
     groupCount = 0;
     for (std::uint32_t g : groups) groupCount = std::max(groupCount, std::size_t(g) + 1);
   }
+  const auto groupOf = [&](std::uint32_t v) { return groups.empty() ? v : groups[v]; };
+  const auto position = [&](std::uint32_t v) -> Vec3d { return mesh.positions[v].cast<double>(); };
+
   std::vector<Vec3d> sums(groupCount, Vec3d::Zero());
   for (const Triangle& t : mesh.triangles) {
-    const Vec3d p[3] = {mesh.positions[t[0]].cast<double>(), mesh.positions[t[1]].cast<double>(),
-                        mesh.positions[t[2]].cast<double>()};
+    const Vec3d p[3] = {position(t[0]), position(t[1]), position(t[2])};
     const Vec3d cross = (p[1] - p[0]).cross(p[2] - p[0]);
     const double area = cross.norm();
     if (!(area > 0.0)) continue;
     const Vec3d normal = cross / area;
     for (int corner = 0; corner < 3; ++corner) {
       const Vec3d a = p[(corner + 1) % 3] - p[corner], b = p[(corner + 2) % 3] - p[corner];
-      const double angle = std::atan2(area, a.dot(b));
-      sums[groups.empty() ? t[corner] : groups[t[corner]]] += angle * normal;
+      sums[groupOf(t[corner])] += std::atan2(area, a.dot(b)) * normal;
+    }
+  }
+  // Two sides of a folded sheet cancel: there the largest triangle decides.
+  constexpr double kCancelled = 1e-6;
+  std::vector<double> largest;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::uint32_t v : t) {
+      const std::uint32_t g = groupOf(v);
+      if (sums[g].norm() > kCancelled && (largest.empty() || largest[g] == 0.0)) continue;
+      if (largest.empty()) largest.resize(groupCount, 0.0);
+      const Vec3d a = position(t[0]);
+      const Vec3d cross = (position(t[1]) - a).cross(position(t[2]) - a);
+      const double area = cross.norm();
+      if (area > largest[g]) {
+        largest[g] = area;
+        sums[g] = cross / area;
+      }
     }
   }
   mesh.normals.resize(count);
   std::size_t without = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3d& sum = sums[groups.empty() ? i : groups[i]];
+    const Vec3d& sum = sums[groupOf(std::uint32_t(i))];
     const double length = sum.norm();
-    if (length > 1e-9) {
+    if (length > kCancelled) {
       mesh.normals[i] = (sum / length).cast<float>();
     } else {
       mesh.normals[i] = Vec3::UnitY();

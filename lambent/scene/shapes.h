@@ -61,9 +61,10 @@ Scene sceneOf(Mesh mesh, Material material = {});
 std::uint32_t addTo(Scene& scene, Mesh mesh, Material material);
 
 /// Sets normals: of every vertex, the mean of its triangles' normals weighted by their angle there,
-/// which does not depend on how a flat polygon was cut. Vertices with the same entry in `groups`
-/// (one per vertex) share a normal; without it each stands alone. Returns the number of vertices
-/// that no triangle of area gives a normal to; they get +Y.
+/// which does not depend on how a flat polygon was cut; where they cancel (a folded sheet), its
+/// largest triangle's. Vertices with the same entry in `groups` (one per vertex) share a normal;
+/// without it each stands alone. Returns the number of vertices that no triangle of area gives a
+/// normal to; they get +Y.
 std::size_t computeNormals(Mesh& mesh, std::span<const std::uint32_t> groups = {});
 
 }  // namespace lambent::scene

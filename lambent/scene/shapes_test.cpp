@@ -143,6 +143,14 @@ TEST(Shapes, ComputedNormalsDoNotSeeHowAQuadWasCut) {
   }
 }
 
+TEST(Shapes, ComputedNormalsOfAFoldedSheetAreOneOfItsSides) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 1}};
+  EXPECT_EQ(computeNormals(mesh), 0u);
+  for (const Vec3& n : mesh.normals) EXPECT_TRUE(n.isApprox(Vec3::UnitZ()));
+}
+
 TEST(Shapes, ComputedNormalsGuardDegenerateTrianglesAndShareGroups) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}, {0, 0, 0}};

@@ -109,8 +109,7 @@ void makeNormals(Mesh& mesh, std::span<const std::uint32_t> groups, const std::s
                  Diagnosis& diagnosis) {
   if (const std::size_t without = scene::computeNormals(mesh, groups); without > 0) {
     diagnosis.add(Severity::Warning, "no-side", without,
-                  "vertices have triangles on both sides that cancel out; their made normal is +Y",
-                  place);
+                  "vertices have no triangle with a clear side; their made normal is +Y", place);
   }
 }
 
