@@ -8,6 +8,7 @@
 #include <ImathBox.h>
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
@@ -35,9 +36,14 @@ namespace {
 
 using Imath::Box2i;
 
-// DWAB spends some 240 bytes on 256 lines of a constant picture, however wide: a black 2048²
-// picture has 2,100 pixels a byte, a black 16384² one eight times that.
-constexpr size_t kMaxPixelsPerByte = 65536;
+/// The most pixels that one byte of a file can stand for. Deflate makes at most 1032 bytes of one,
+/// two bytes a pixel in a half channel; the others make less. DWA spends some 240 bytes on 32 or
+/// 256 lines of a constant picture, however wide: a black 2048² picture has 2,100 pixels a byte, a
+/// black 16384² one eight times that.
+size_t maxPixelsPerByte(Imf::Compression compression) {
+  const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+  return dwa ? 65536 : 600;
+}
 
 class MemoryInput : public Imf::IStream {
  public:
@@ -136,7 +142,7 @@ Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::stri
   for (const Box2i& box : {w.data, w.display}) {
     if (Status sane = checkSize(static_cast<long long>(box.max.x) - box.min.x + 1,
                                 static_cast<long long>(box.max.y) - box.min.y + 1, fileBytes, name,
-                                kMaxPixelsPerByte);
+                                maxPixelsPerByte(header.compression()));
         !sane) {
       return sane.error();
     }

@@ -11,7 +11,8 @@ namespace lambent::image {
 /// for a constant picture, and for a picture of m pixels from pole to pole good to about
 /// (π l/m)²/24 in band l. Bands 1 … 32. World directions go into the harmonics as they are: the
 /// harmonics' polar axis is the world's z, the picture's is y. Asserts on a shape that checkShape
-/// refuses. Sums are in double precision and have the same bytes whatever the number of threads.
+/// refuses; a pixel that is not finite spoils the result (see repair.h). Sums are in double
+/// precision and have the same bytes whatever the number of threads.
 sh::RgbCoefficients project(const Image& map, MapKind kind, int bands);
 
 }  // namespace lambent::image
