@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/radiometry/tone.h"
 #include "lambent/scene/scene.h"
 
 namespace lambent::scene {
@@ -15,10 +16,7 @@ namespace {
 struct SrgbTable {
   std::array<float, 256> linear;
   SrgbTable() {
-    for (int i = 0; i < 256; ++i) {
-      const double c = i / 255.0;
-      linear[i] = float(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-    }
+    for (int i = 0; i < 256; ++i) linear[i] = radiometry::srgbDecode(float(i) / 255.0f);
   }
 };
 

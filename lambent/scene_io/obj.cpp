@@ -6,10 +6,10 @@
 #include <unordered_map>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/radiometry/tone.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/polygon.h"
-#include "lambent/scene_io/srgb.h"
 #include "lambent/scene_io/text_cursor.h"
 
 namespace lambent::scene_io {
@@ -97,7 +97,8 @@ Status ObjReader::readVertex(TextCursor& cursor) {
   if (count >= 6) {
     colors_.resize(positions_.size() - 1, Rgb::Ones());
     const float* c = values + (count == 7 ? 4 : 3);
-    colors_.push_back(linearFromSrgb(Rgb(c[0], c[1], c[2])));
+    colors_.push_back(Rgb(radiometry::srgbDecode(c[0]), radiometry::srgbDecode(c[1]),
+                          radiometry::srgbDecode(c[2])));
   } else if (!colors_.empty()) {
     colors_.push_back(Rgb::Ones());
   }

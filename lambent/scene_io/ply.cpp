@@ -8,11 +8,11 @@
 #include <string>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/radiometry/tone.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/ply_header.h"
 #include "lambent/scene_io/polygon.h"
-#include "lambent/scene_io/srgb.h"
 #include "lambent/scene_io/text_cursor.h"
 
 namespace lambent::scene_io {
@@ -222,7 +222,9 @@ Status PlyReader::readVertices(const PlyElement& element) {
     if (uvs) mesh_.uvs.emplace_back(value(Role::U), 1.0f - value(Role::V));
     if (colors) {
       const Rgb color(value(Role::Red), value(Role::Green), value(Role::Blue));
-      mesh_.colors.push_back(integerColor ? linearFromSrgb(Rgb(color * colorScale)) : color);
+      const auto linear = [&](float c) { return radiometry::srgbDecode(c * colorScale); };
+      mesh_.colors.push_back(
+          integerColor ? Rgb(linear(color.x()), linear(color.y()), linear(color.z())) : color);
     }
   }
   return Status::ok();
