@@ -85,7 +85,8 @@ Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sam
   Rgb sum = Rgb::Zero(), throughput = Rgb::Ones();
   const int bounces = options_.shadows ? options_.bounces : 0;
   for (int bounce = 0;; ++bounce) {
-    const Scattering scattering(point, toViewer);
+    const Scattering scattering(point, toViewer,
+                                options_.shadows ? Horizon::Blocks : Horizon::Open);
     if (scattering.black()) return sum;
     const Vec3 origin = lifted(point);
     const Vec2 lightNumbers = sampler.next(), lobeNumbers = sampler.next(),

@@ -18,7 +18,7 @@ struct PathTraceOptions {
                      ///< best used if 16 · 2^k
   int bounces =
       2;  ///< beyond the direct light, as in a bake; 0: direct light only. Mirrors do not count
-  bool shadows = true;      ///< false: unshadowed direct light, no bounces
+  bool shadows = true;  ///< false: unshadowed direct light, no bounces; lobes see the whole sphere
   std::uint64_t seed = 0;   ///< two seeds give independent errors
   bool background = false;  ///< picture: the environment where nothing is in front of it
   int threads = 0;          ///< 0: all. No effect on the result's bytes

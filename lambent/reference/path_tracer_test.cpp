@@ -365,6 +365,22 @@ TEST(Options, WithoutShadowsOnlyTheLightCounts) {
   expectTruth(together(*seen), Rgb::Ones());
 }
 
+TEST(Options, WithoutShadowsALobeSeesTheWholeSphere) {
+  // T_GU convolves the whole sphere: seen at grazing angle, half the lobe lies below the surface.
+  scene::SurfacePoint point = receiver(Vec3::Zero(), Vec3::UnitY(), Rgb::Zero());
+  point.glossy = Rgb::Ones(), point.lobeExponent = 4.0f;
+  const World world = emptyWorld();
+  const std::vector<Probe> probes(8, Probe{point, Vec3(1, 0, 0)});
+  for (const bool shadows : {true, false}) {
+    PathTraceOptions options;
+    options.shadows = shadows, options.samples = 1024, options.bounces = 0;
+    const auto seen =
+        exitRadiance(world.scene, world.rays, Environment::uniform(Rgb::Ones()), probes, options);
+    ASSERT_TRUE(seen);
+    expectTruth(together(*seen), Rgb::Constant(shadows ? 0.5f : 1.0f));
+  }
+}
+
 TEST(Options, ThatMakeNoSenseAreRefused) {
   const World world = emptyWorld();
   const auto kind = [&](PathTraceOptions options, int width) {

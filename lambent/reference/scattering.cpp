@@ -11,12 +11,13 @@ static float luminance(const Rgb& c) {
   return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
 }
 
-Scattering::Scattering(const scene::SurfacePoint& point, const Vec3& toViewer)
+Scattering::Scattering(const scene::SurfacePoint& point, const Vec3& toViewer, Horizon horizon)
     : normal_(point.normal),
       reflected_(math::reflectAbout(toViewer, point.normal)),
       diffuse_(point.diffuse),
       glossy_(point.glossy),
-      exponent_(point.lobeExponent) {
+      exponent_(point.lobeExponent),
+      horizon_(horizon) {
   const float diffuse = luminance(diffuse_), glossy = luminance(glossy_);
   black_ = !(diffuse + glossy > 0);
   if (!black_) diffuseShare_ = diffuse / (diffuse + glossy);
@@ -24,7 +25,7 @@ Scattering::Scattering(const scene::SurfacePoint& point, const Vec3& toViewer)
 
 Rgb Scattering::value(const Vec3& direction) const {
   const float cosine = normal_.dot(direction);
-  if (!(cosine > 0)) return Rgb::Zero();
+  if (!(cosine > 0) && horizon_ == Horizon::Blocks) return Rgb::Zero();
   Rgb value = diffuse_ * math::cosineHemispherePdf(cosine);
   if (diffuseShare_ < 1)
     value += glossy_ * math::phongLobePdf(reflected_.dot(direction), exponent_);
