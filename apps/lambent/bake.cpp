@@ -34,6 +34,8 @@ constexpr std::string_view kExamples = R"(Examples:
       A quick look.
   lambent bake teapot.glb -o teapot.glb --material glossy --lobe 64 --bands 7
       As if everything were polished: a transfer matrix at every vertex.
+  lambent bake bunny.obj -o standing.glb --ground --albedo 0.7,0.6,0.5
+      On a floor that takes its shadow.
   lambent bake ring.gltf -o ring.glb --texels ground=256x256
       The mesh "ground" is baked on a grid over its UVs: caustics finer than its vertices.
 )";

@@ -37,6 +37,8 @@ constexpr std::string_view kExamples = R"(A is the truth, B what is judged.
   rmse            root mean square difference, in radiance
   relative_rmse   the same over the root mean square of A
   relative_mse    mean of squared differences, each over its own A squared (+ 0.01)
+  noise           what of it the variance in A and B accounts for ('lambent reference' stores it)
+  beyond_noise    what is left of relative_rmse: the error proper
   psnr            dB below the brightest value of A, or below 1 for PNG
   flip            0 to 1, what a person sees who flips between the developed pictures
 Pixels that neither picture covers are left out of all but flip.
@@ -51,7 +53,8 @@ Examples:
       Two outputs of 'lambent shade', receiver by receiver.
 )";
 
-constexpr std::array kMetrics = {"bias", "rmse", "relative_rmse", "relative_mse", "flip"};
+constexpr std::array kMetrics = {"bias",         "rmse",         "relative_rmse",
+                                 "relative_mse", "beyond_noise", "flip"};
 
 Result<Limit> parseLimit(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -70,10 +73,17 @@ struct Outcome {
   image::Comparison numbers;
   std::optional<double> flip;
   float exposure = 0.0f;
+  std::optional<double> noise;  ///< relative RMSE that the pictures' own variance accounts for
 };
 
 Json numberOrNull(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);  // JSON has no infinity
+}
+
+/// What of the relative RMSE is left once the noise is taken away.
+double beyondNoise(const Outcome& outcome) {
+  const double error = outcome.numbers.relativeRmse, noise = *outcome.noise;
+  return std::sqrt(std::max(0.0, error * error - noise * noise));
 }
 
 Json summaryOf(const Outcome& outcome) {
@@ -87,6 +97,10 @@ Json summaryOf(const Outcome& outcome) {
                {"psnr", numberOrNull(n.psnr)},
                {"largest", n.largest},
                {"not_finite", n.nonFinitePixels}};
+  if (outcome.noise) {
+    json["noise"] = numberOrNull(*outcome.noise);
+    json["beyond_noise"] = numberOrNull(beyondNoise(outcome));
+  }
   if (outcome.flip) {
     json["flip"] = *outcome.flip;
     json["exposure"] = outcome.exposure;
@@ -105,6 +119,9 @@ std::string textOf(const Outcome& outcome, std::string_view unit) {
       "  psnr           {:.2f} dB\n",
       formatCount(outcome.count), unit, 100.0 * n.relativeBias, n.rmse, 100.0 * n.relativeRmse,
       n.relativeMse, n.psnr);
+  if (outcome.noise)
+    text += fmt::format("  of which noise {:.4f} %, beyond it {:.4f} %\n", 100.0 * *outcome.noise,
+                        100.0 * beyondNoise(outcome));
   if (outcome.flip)
     text += fmt::format("  flip           {:.5f} at {:+.2f} EV\n", *outcome.flip, outcome.exposure);
   return text;
@@ -126,7 +143,27 @@ Result<Outcome> compareReceivers(const Arguments& arguments) {
   for (const ShadedReceiver& receiver : *b) judged.push_back(receiver.radiance);
   const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
   if (!numbers) return badInput(arguments.truth.string() + ": " + numbers.error().message);
-  return Outcome{truth.size(), *numbers, {}, 0.0f};
+  return Outcome{truth.size(), *numbers, {}, 0.0f, {}};
+}
+
+/// The relative RMSE to be expected of the noise alone, if one of the files has a layer of
+/// variance.
+std::optional<double> noiseOf(const Arguments& arguments, const image::Image& a,
+                              const image::Image& b) {
+  double variance = 0.0, power = 0.0;
+  bool known = false;
+  for (const auto& path : {arguments.truth, arguments.judged}) {
+    const auto layer = image::readLayer(path, "variance");
+    if (!layer || layer->pixels.size() != a.pixels.size()) continue;
+    known = true;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+      if (a.pixels[i].isFinite().all() && b.pixels[i].isFinite().all())
+        variance += double(layer->pixels[i].sum());
+  }
+  for (const Rgb& pixel : a.pixels)
+    if (pixel.isFinite().all()) power += double(pixel.square().sum());
+  if (!known || !(power > 0.0)) return {};
+  return std::sqrt(variance / power);
 }
 
 /// Only the pixels that either picture covers.
@@ -176,7 +213,8 @@ Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
   if (!whole) return badInput(arguments.truth.string() + ": " + whole.error().message);
   const auto [truth, judged] = covered(*a, *b);
   const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
-  Outcome outcome{truth.size(), numbers ? *numbers : *whole, whole->flip, options.exposureEv};
+  Outcome outcome{truth.size(), numbers ? *numbers : *whole, whole->flip, options.exposureEv,
+                  noiseOf(arguments, *a, *b)};
   if (developed) outcome.numbers.psnr = whole->psnr;
   if (outcome.numbers.nonFinitePixels > 0)
     console.warn("not-finite", fmt::format("{} pixels are not finite and were left out",

@@ -64,6 +64,11 @@ radiometry::ToneCurve DevelopmentArguments::curve() const {
   return tone == "linear" ? radiometry::ToneCurve::Linear : radiometry::ToneCurve::Filmic;
 }
 
+namespace {
+constexpr double kKey =
+    0.25;  // brighter than the usual 0.18: an object fills the picture, not a view
+}
+
 float automaticExposure(const image::Image& picture) {
   double sum = 0.0;
   std::size_t count = 0;
@@ -75,7 +80,7 @@ float automaticExposure(const image::Image& picture) {
     ++count;
   }
   if (count == 0) return 0.0f;
-  return float(std::log2(0.18) - sum / double(count));
+  return float(std::log2(kKey) - sum / double(count));
 }
 
 }  // namespace lambent::tool

@@ -32,7 +32,7 @@ struct DevelopmentArguments {
   radiometry::ToneCurve curve() const;
 };
 
-/// The EV that takes the log-average luminance of what is covered and lit to 0.18.
+/// The EV that takes the log-average luminance of what is covered and lit to a middle grey.
 float automaticExposure(const image::Image& picture);
 
 }  // namespace lambent::tool

@@ -64,7 +64,9 @@ void ProgressBar::update(const ProgressUpdate& update) {
   StageTime& stage = stages_.back();
   stage.seconds = secondsBetween(began_, now);
   stage.units = std::max(stage.units, update.done);
-  const auto interval = style_ == Style::Bar ? Clock::duration(kBarInterval) : kLineInterval;
+  // Lines come more rarely the longer it takes, so that a log of an hour is short.
+  const Clock::duration lines = std::max<Clock::duration>(kLineInterval, (now - began_) / 8);
+  const Clock::duration interval = style_ == Style::Bar ? Clock::duration(kBarInterval) : lines;
   if (style_ != Style::Silent && update.total > 0 && now - lastDrawn_ >= interval)
     draw(update, now);
 }

@@ -6,6 +6,7 @@
 
 #include "apps/lambent/arguments.h"
 #include "lambent/asset/asset.h"
+#include "lambent/scene/shapes.h"
 #include "lambent/scene_io/load.h"
 
 namespace lambent::tool {
@@ -28,6 +29,21 @@ void overrideMaterial(const SceneArguments& arguments, scene::Material& material
                         : material.diffuse) = reflectance;
   }
   if (arguments.lobeExponent) material.lobeExponent = float(*arguments.lobeExponent);
+}
+
+/// A grey square under the scene, 2.5 times as wide, of 160 × 160 quads so that it can hold
+/// shadows.
+void addGround(scene::Scene& scene) {
+  const scene::Box box = scene::bounds(scene);
+  const Vec3 extent = box.upper - box.lower;
+  const float side = 2.5f * std::max(extent.x(), extent.z());
+  scene::Mesh ground = scene::gridPlane(side, side, 160, 160);
+  ground.name = "ground";
+  scene::Material grey;
+  grey.name = "ground";
+  grey.diffuse = Rgb::Constant(0.5f);
+  const Vec3 below(box.center().x(), box.lower.y(), box.center().z());
+  scene::addTo(scene, scene::translated(std::move(ground), below), grey);
 }
 
 }  // namespace
@@ -55,6 +71,9 @@ void SceneArguments::addTo(CLI::App& app) {
       ->check(CLI::Range(0.0, 1e5))
       ->option_text("EXPONENT")
       ->group("Material");
+  app.add_flag("--ground", ground,
+               "Put the scene on a grey floor, 2.5 times as wide, that takes shadows and light")
+      ->group("Material");
 }
 
 Result<scene::Scene> SceneArguments::load(Console& console) const {
@@ -75,6 +94,7 @@ Result<scene::Scene> SceneArguments::load(Console& console) const {
     scene = std::move(loaded->scene);
   }
   for (scene::Material& each : scene.materials) overrideMaterial(*this, each);
+  if (ground) addGround(scene);
   return scene;
 }
 

@@ -17,6 +17,7 @@ struct SceneArguments {
   std::string material;  ///< diffuse, glossy, mirror or empty: as the file says
   std::optional<Rgb> albedo;
   std::optional<double> lobeExponent;
+  bool ground = false;  ///< a grey floor under the scene
 
   void addTo(CLI::App& app);
   /// Reads the scene (or the scene inside a baked asset) and reports what was odd in it.

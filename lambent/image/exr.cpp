@@ -113,9 +113,10 @@ std::optional<Channels> colourOf(const std::vector<std::string>& names, const st
   return found;
 }
 
-std::optional<Channels> chooseChannels(const Imf::ChannelList& list) {
+std::optional<Channels> chooseChannels(const Imf::ChannelList& list, std::string_view layer) {
   std::vector<std::string> names;
   for (auto i = list.begin(); i != list.end(); ++i) names.emplace_back(i.name());
+  if (!layer.empty()) return colourOf(names, std::string(layer) + ".");
   if (std::optional<Channels> plain = colourOf(names, "")) return plain;
   const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
   if (has("Y")) {
@@ -248,7 +249,7 @@ Image readChroma(MemoryInput& input, const Channels& channels, const Windows& w)
   return image;
 }
 
-Result<Image> readChecked(Bytes bytes, std::string_view name) {
+Result<Image> readChecked(Bytes bytes, std::string_view name, std::string_view layer) {
   const std::string streamName(name);
   MemoryInput input(bytes, streamName.c_str());
   // No reconstruction of a missing offset table: it would scan the file for what a writer that was
@@ -260,7 +261,11 @@ Result<Image> readChecked(Bytes bytes, std::string_view name) {
   }
   const Result<Windows> windows = windowsOf(header, bytes.size(), name);
   if (!windows) return windows.error();
-  const std::optional<Channels> channels = chooseChannels(header.channels());
+  const std::optional<Channels> channels = chooseChannels(header.channels(), layer);
+  if (!channels && !layer.empty()) {
+    return report::badInput(streamName + ": has no layer " + std::string(layer) +
+                            " with channels R, G, B in its first part");
+  }
   if (!channels) {
     return report::badInput(streamName +
                             ": has neither channels R, G, B nor Y in its first part; save it with "
@@ -319,9 +324,9 @@ bool isExr(Bytes bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), kMagic.data(), 4) == 0;
 }
 
-Result<Image> readExr(Bytes bytes, std::string_view name) {
+Result<Image> readExr(Bytes bytes, std::string_view name, std::string_view layer) {
   try {
-    return readChecked(bytes, name);
+    return readChecked(bytes, name, layer);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {

@@ -14,7 +14,8 @@ namespace lambent::image::formats {
 
 using Bytes = std::span<const std::byte>;
 
-Result<Image> readExr(Bytes bytes, std::string_view name);
+/// `layer` names the channels before the dot; empty: the picture itself.
+Result<Image> readExr(Bytes bytes, std::string_view name, std::string_view layer = {});
 Result<Image> readHdr(Bytes bytes, std::string_view name);
 Result<Image> readPngOrJpeg(Bytes bytes, std::string_view name);
 

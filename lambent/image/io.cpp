@@ -71,6 +71,19 @@ Result<Image> read(const std::filesystem::path& path) {
   return decode(*bytes, path.string());
 }
 
+Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer) {
+  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
+  if (!bytes) return bytes.error();
+  if (!formats::isExr(*bytes)) {
+    return report::badInput(path.string() + ": only OpenEXR pictures have further layers");
+  }
+  try {
+    return formats::readExr(*bytes, path.string(), layer);
+  } catch (const std::bad_alloc&) {
+    return report::failed(path.string() + ": not enough memory to read the picture");
+  }
+}
+
 Status checkWritableFormat(const std::filesystem::path& path) {
   const std::string extension = extensionOf(path);
   if (extension == ".exr" || extension == ".hdr" || extension == ".png") return Status::ok();

@@ -24,6 +24,9 @@ inline constexpr size_t kMaxPixels = size_t(1) << 28;
 Result<Image> read(const std::filesystem::path& path);
 /// The same from memory; `name` stands in messages for the file.
 Result<Image> decode(std::span<const std::byte> bytes, std::string_view name);
+/// A further layer of an EXR file, as WriteOptions::layers writes it. BadInput if there is none of
+/// that name, or if it is no EXR file.
+Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer);
 
 struct WriteOptions {
   bool halfFloat = false;  ///< EXR: 16-bit channels instead of 32; finite values beyond ±65504 are

@@ -270,5 +270,19 @@ TEST_F(ImageIo, MakeRadiance) {
   EXPECT_EQ(makeRadiance(image).total(), 0u);
 }
 
+TEST_F(ImageIo, LayersAreReadByName) {
+  const Image image = noise(9, 7, 2.0f), variance = noise(9, 7, 0.1f, 5);
+  WriteOptions options;
+  options.layers.emplace_back("variance", &variance);
+  ASSERT_TRUE(write(image, folder_ / "a.exr", options));
+  const Result<Image> layer = readLayer(folder_ / "a.exr", "variance");
+  ASSERT_TRUE(layer);
+  for (size_t i = 0; i < variance.pixels.size(); ++i)
+    ASSERT_TRUE((layer->pixels[i] == variance.pixels[i]).all());
+  EXPECT_EQ(readLayer(folder_ / "a.exr", "depth").error().kind, ErrorKind::BadInput);
+  ASSERT_TRUE(write(image, folder_ / "a.png"));
+  EXPECT_FALSE(readLayer(folder_ / "a.png", "variance"));
+}
+
 }  // namespace
 }  // namespace lambent::image
