@@ -49,8 +49,8 @@ Examples:
       One picture to look at: A, B, and ten times the difference.
   lambent compare truth.exr ours.exr --fail-above relative_rmse=0.02 --json
       In a script: exit code 1 if the error is larger.
-  lambent compare before.csv after.csv
-      Two outputs of 'lambent shade', receiver by receiver.
+  lambent compare truth.csv ours.csv
+      Receiver by receiver: outputs of 'lambent reference' and 'lambent shade'.
 )";
 
 constexpr std::array kMetrics = {"bias",         "rmse",         "relative_rmse",
@@ -134,16 +134,25 @@ Result<Outcome> compareReceivers(const Arguments& arguments) {
   if (!a) return a.error();
   const auto b = readReceivers(arguments.judged);
   if (!b) return b.error();
-  if (a->size() != b->size())
-    return badInput(fmt::format("{} has {} receivers, {} has {}: shade two bakes of one scene",
-                                arguments.truth.string(), a->size(), arguments.judged.string(),
-                                b->size()));
+  if (a->receivers.size() != b->receivers.size())
+    return badInput(
+        fmt::format("{} has {} receivers, {} has {}: take both of one scene, baked at its vertices",
+                    arguments.truth.string(), a->receivers.size(), arguments.judged.string(),
+                    b->receivers.size()));
   std::vector<Rgb> truth, judged;
-  for (const ShadedReceiver& receiver : *a) truth.push_back(receiver.radiance);
-  for (const ShadedReceiver& receiver : *b) judged.push_back(receiver.radiance);
+  for (const ShadedReceiver& receiver : a->receivers) truth.push_back(receiver.radiance);
+  for (const ShadedReceiver& receiver : b->receivers) judged.push_back(receiver.radiance);
   const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
   if (!numbers) return badInput(arguments.truth.string() + ": " + numbers.error().message);
-  return Outcome{truth.size(), *numbers, {}, 0.0f, {}};
+  Outcome outcome{truth.size(), *numbers, {}, 0.0f, {}};
+  if (!a->variances.empty() || !b->variances.empty()) {
+    double variance = 0.0, power = 0.0;
+    for (const auto* file : {&*a, &*b})
+      for (const Rgb& v : file->variances) variance += double(v.sum());
+    for (const Rgb& radiance : truth) power += double(radiance.square().sum());
+    if (power > 0.0) outcome.noise = std::sqrt(variance / power);
+  }
+  return outcome;
 }
 
 /// The relative RMSE to be expected of the noise alone, if one of the files has a layer of

@@ -1,5 +1,5 @@
 // Exit radiance per receiver as a file: binary PLY or CSV with the columns x, y, z, nx, ny, nz, r,
-// g, b in world space.
+// g, b in world space, and vr, vg, vb where the radiance is an estimate with a variance.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,14 @@ struct ShadedReceiver {
   Rgb radiance;
 };
 
+struct ReceiverFile {
+  std::vector<ShadedReceiver> receivers;
+  std::vector<Rgb> variances;  ///< of the radiances, one each, or empty: columns vr, vg, vb
+};
+
 /// By extension, .ply (little-endian floats) or .csv. Atomic.
-Status writeReceivers(const std::vector<ShadedReceiver>& receivers,
-                      const std::filesystem::path& path);
+Status writeReceivers(const ReceiverFile& file, const std::filesystem::path& path);
 /// Reads what writeReceivers wrote.
-Result<std::vector<ShadedReceiver>> readReceivers(const std::filesystem::path& path);
+Result<ReceiverFile> readReceivers(const std::filesystem::path& path);
 
 }  // namespace lambent::tool

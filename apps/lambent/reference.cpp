@@ -11,6 +11,7 @@
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/picture_arguments.h"
+#include "apps/lambent/receiver_file.h"
 #include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/image/io.h"
@@ -29,6 +30,7 @@ struct Arguments {
   reference::PathTraceOptions options;
   std::string transfer = "interreflected";
   int bands = 0;
+  std::optional<Vec3> eye;
 };
 
 constexpr std::string_view kExamples = R"(
@@ -38,6 +40,8 @@ Examples:
   lambent reference bunny.glb --light sky.exr -o truth.exr --bands 5
       The light cut to the 5 bands that a bake of 5 bands sees: what then differs from
       'lambent render' is the error of the bake, not of the light.
+  lambent reference bunny.obj --light sky.exr --bands 5 -o truth.csv --spp 1024
+      The truth at every vertex, to compare with what 'lambent shade' writes.
 )";
 
 /// How far the mean is from the truth, relative to it: √(Σ variance / Σ mean²), over what is
@@ -52,8 +56,57 @@ double estimatedError(const reference::Picture& picture) {
   return power > 0.0 ? std::sqrt(variance / power) : 0.0;
 }
 
+bool asksForReceivers(const std::filesystem::path& output) {
+  const std::string extension = extensionOf(output);
+  return extension == ".csv" || extension == ".ply";
+}
+
+/// Exit radiance at every vertex that a bake would record, in the sequence of 'lambent shade'.
+Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
+                      const trace::RayScene& rays, const light::Environment& environment,
+                      Console& console) {
+  std::vector<reference::Probe> probes;
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    if (scene.materials[std::size_t(scene.meshes[m].material)].isMirror()) continue;
+    for (std::uint32_t v = 0; v < scene.meshes[m].positions.size(); ++v) {
+      const scene::SurfacePoint point = scene::surfaceAtVertex(scene, m, v);
+      Vec3 toViewer = point.normal;
+      if (arguments.eye) toViewer = (*arguments.eye - point.position).normalized();
+      probes.push_back({point, toViewer});
+    }
+  }
+  const auto estimates = reference::exitRadiance(scene, rays, environment, probes,
+                                                 arguments.options, console.progress());
+  if (!estimates) return estimates.error();
+  ReceiverFile file;
+  double variance = 0.0, power = 0.0;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const reference::Estimate& estimate = (*estimates)[i];
+    file.receivers.push_back({probes[i].point.position, probes[i].point.normal, estimate.mean});
+    file.variances.push_back(estimate.variance);
+    variance += double(estimate.variance.sum());
+    power += double(estimate.mean.square().sum());
+  }
+  Status status =
+      written(console.stage("write", [&] { return writeReceivers(file, arguments.output); }));
+  if (!status) return status;
+  const double error = power > 0.0 ? std::sqrt(variance / power) : 0.0;
+  console.finish({{"output", arguments.output.string()},
+                  {"receivers", probes.size()},
+                  {"spp", arguments.options.samples},
+                  {"bounces", arguments.options.bounces},
+                  {"bands", arguments.bands},
+                  {"estimated_relative_rmse", error}},
+                 fmt::format("{}: {} receivers, {} paths each, {} bounces\n"
+                             "estimated relative RMSE of its own noise: {:.3g}%\n",
+                             arguments.output.string(), formatCount(probes.size()),
+                             arguments.options.samples, arguments.options.bounces, 100.0 * error));
+  return Status::ok();
+}
+
 Status runReference(Arguments arguments, Console& console) {
-  Status writable = checkOutput(arguments.output, {".exr", ".png"}, arguments.scene.path);
+  Status writable =
+      checkOutput(arguments.output, {".exr", ".png", ".csv", ".ply"}, arguments.scene.path);
   if (!writable) return writable;
   const auto scene = arguments.scene.load(console);
   if (!scene) return scene.error();
@@ -66,8 +119,6 @@ Status runReference(Arguments arguments, Console& console) {
   } else if (arguments.light.window != "none") {
     return badUsage("--window softens the bands of a light: give --bands too");
   }
-  const auto camera = arguments.view.choose(*scene);
-  if (!camera) return camera.error();
   const auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene); });
   if (!rays) return rays.error();
 
@@ -76,6 +127,10 @@ Status runReference(Arguments arguments, Console& console) {
   if (arguments.transfer != "interreflected") options.bounces = 0;
   options.background = arguments.view.background;
   options.threads = console.options().threads;
+  if (asksForReceivers(arguments.output))
+    return traceReceivers(arguments, *scene, *rays, *environment, console);
+  const auto camera = arguments.view.choose(*scene);
+  if (!camera) return camera.error();
   const auto began = std::chrono::steady_clock::now();
   auto picture = reference::picture(*scene, *rays, *environment, *camera, arguments.view.size.width,
                                     arguments.view.size.height, options, console.progress());
@@ -120,9 +175,11 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
   arguments->scene.addTo(*app);
   arguments->light.addTo(*app, false);
-  app->add_option("-o,--output", arguments->output,
-                  "The picture: .exr for linear radiance with a layer of variance, or .png")
-      ->option_text("OUT.exr|OUT.png")
+  app->add_option(
+         "-o,--output", arguments->output,
+         "The picture: .exr for linear radiance with a layer of variance, or .png; or .csv or .ply "
+         "for the radiance of every vertex, with its variance")
+      ->option_text("OUT.exr|.png|.csv|.ply")
       ->required();
   app->add_option("--spp", arguments->options.samples,
                   "Paths per pixel. Four times as many: half the noise")
@@ -153,6 +210,11 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
       ->capture_default_str()
       ->group("Light");
   arguments->light.addWindowTo(*app);
+  addParsed(*app, "--eye", arguments->eye, parseTriple,
+            "With .csv and .ply: where the viewer stands. Without it every vertex is seen along "
+            "its normal")
+      ->option_text("X,Y,Z")
+      ->group("View");
   arguments->view.addTo(*app);
   arguments->development.addTo(*app);
   addCommonOptions(*app, common);

@@ -31,12 +31,12 @@ void overrideMaterial(const SceneArguments& arguments, scene::Material& material
   if (arguments.lobeExponent) material.lobeExponent = float(*arguments.lobeExponent);
 }
 
-/// A grey square under the scene, 2.5 times as wide, of 160 × 160 quads so that it can hold
+/// A grey square under the scene, 1.6 times as wide, of 160 × 160 quads so that it can hold
 /// shadows.
 void addGround(scene::Scene& scene) {
   const scene::Box box = scene::bounds(scene);
   const Vec3 extent = box.upper - box.lower;
-  const float side = 2.5f * std::max(extent.x(), extent.z());
+  const float side = 1.6f * std::max(extent.x(), extent.z());
   scene::Mesh ground = scene::gridPlane(side, side, 160, 160);
   ground.name = "ground";
   scene::Material grey;
@@ -72,7 +72,7 @@ void SceneArguments::addTo(CLI::App& app) {
       ->option_text("EXPONENT")
       ->group("Material");
   app.add_flag("--ground", ground,
-               "Put the scene on a grey floor, 2.5 times as wide, that takes shadows and light")
+               "Put the scene on a grey floor, 1.6 times as wide, that takes shadows and light")
       ->group("Material");
 }
 

@@ -47,21 +47,22 @@ Status runShade(const Arguments& arguments, Console& console) {
   shade::View view;
   view.eye = arguments.eye;
   if (arguments.lobeExponent) view.lobeExponent = float(*arguments.lobeExponent);
-  const auto receivers = console.stage("shade", [&] {
-    std::vector<ShadedReceiver> all;
+  const ReceiverFile file = console.stage("shade", [&] {
+    ReceiverFile all;
     for (std::uint32_t m = 0; m < asset->transfer.meshes.size(); ++m) {
       const encode::EncodedMesh& mesh = asset->transfer.meshes[m];
       const std::vector<Rgb> radiance = shade::exitRadiance(*asset, m, *light, view);
       for (std::size_t i = 0; i < radiance.size(); ++i)
         if (mesh.covered.empty() || mesh.covered[i])
-          all.push_back({mesh.positions[i], mesh.normals[i], radiance[i]});
+          all.receivers.push_back({mesh.positions[i], mesh.normals[i], radiance[i]});
     }
     return all;
   });
   Status status =
-      written(console.stage("write", [&] { return writeReceivers(receivers, arguments.output); }));
+      written(console.stage("write", [&] { return writeReceivers(file, arguments.output); }));
   if (!status) return status;
 
+  const std::vector<ShadedReceiver>& receivers = file.receivers;
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   for (const ShadedReceiver& receiver : receivers) sum += receiver.radiance.cast<double>();
   const Rgb mean =
