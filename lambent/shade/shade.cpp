@@ -68,10 +68,12 @@ DiffuseShader::DiffuseShader(const EncodedMesh& mesh)
   const int coefficients = sh::coefficientCount(bands_);
   assert(channels_ == 1 || channels_ == 3);
   assert(mesh.vectors.size() == receivers_ * channels_ * coefficients);
-  if (mesh.vectors.encoding == Encoding::Float16)
-    half_ = inBlocks(mesh.vectors.half, receivers_, channels_, coefficients);
-  else
+  if (mesh.vectors.encoding == Encoding::Float32)
     single_ = inBlocks(mesh.vectors.single, receivers_, channels_, coefficients);
+  else if (math::bestIsa() == math::Isa::Baseline)  // decoding takes longer there than reading
+    single_ = inBlocks(encode::decode(mesh.vectors), receivers_, channels_, coefficients);
+  else
+    half_ = inBlocks(mesh.vectors.half, receivers_, channels_, coefficients);
 }
 
 void DiffuseShader::shade(const sh::RgbCoefficients& light, std::span<float> out) const {

@@ -14,7 +14,7 @@
 namespace lambent::shade {
 
 /// A mesh's diffuse transfer laid out for shading: blocks of 16 receivers, coefficient after
-/// coefficient, 16 or 32 bit as encoded.
+/// coefficient, 16 or 32 bit as encoded (32 where the machine cannot convert).
 class DiffuseShader {
  public:
   explicit DiffuseShader(const encode::EncodedMesh& mesh);
