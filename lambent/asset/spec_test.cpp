@@ -60,7 +60,8 @@ TEST(Spec, WhatIsWrittenIsWhatTheSchemaSays) {
 
 TEST(Spec, SchemaNamesEveryEnumeration) {
   const json primitives = schema("mesh.primitive");
-  for (const json& name : schema("glTF")["properties"]["transfer"]["enum"])
+  const json root = schema("glTF");
+  for (const json& name : root["properties"]["transfer"]["enum"])
     EXPECT_TRUE(transferKindNamed(name.get<std::string>())) << name;
   for (const json& name : primitives["properties"]["layout"]["enum"])
     EXPECT_TRUE(layoutNamed(name.get<std::string>())) << name;
