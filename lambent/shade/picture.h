@@ -1,6 +1,8 @@
 // A relit picture of an asset on the CPU: the oracle for lambent/render.
 #pragma once
 
+#include <optional>
+
 #include "lambent/asset/asset.h"
 #include "lambent/image/image.h"
 #include "lambent/light/environment.h"
@@ -16,8 +18,11 @@ struct PictureOptions {
   std::optional<float> lobeExponent;
 };
 
-/// Linear radiance. `light` holds the harmonics that relight; `environment` is what mirrors and the
-/// background show.
+/// Linear radiance, never negative (what a ringing light drives below zero is cut off per pixel,
+/// after averaging), with coverage in alpha: what covers half a pixel has half its radiance there.
+/// With a background there is no alpha. Surfaces seen from behind are black. Only the front of a
+/// material is lit, and a mirror shows the environment alone. `light` holds the harmonics that
+/// relight; `environment` is what mirrors and the background show.
 Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficients& light,
                              const light::Environment& environment, const scene::Camera& camera,
                              const PictureOptions& options, const Progress& progress = {});
