@@ -275,6 +275,7 @@ Status runCompare(const Arguments& arguments, Console& console) {
   if (!arguments.strip.empty()) text += fmt::format("strip: {}\n", arguments.strip.string());
   if (!exceeded.empty()) {
     if (!console.options().json) fmt::print("{}", text);
+    console.keep(json);
     return failed(exceeded);
   }
   console.finish(json, text);

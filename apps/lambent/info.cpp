@@ -51,9 +51,10 @@ Result<Whole> describeModel(const std::filesystem::path& path, Console& console)
   if (!loaded) {
     if (extensionOf(path) == ".ply" && loaded.error().kind == ErrorKind::BadInput) {
       if (const auto receivers = readReceivers(path))
-        return Whole{"receivers",
-                     {fmt::format("{} shaded receivers\n", formatCount(receivers->size())),
-                      {{"receivers", receivers->size()}}}};
+        return Whole{
+            "receivers",
+            {fmt::format("{} shaded receivers\n", formatCount(receivers->receivers.size())),
+             {{"receivers", receivers->receivers.size()}}}};
     }
     return loaded.error();
   }
@@ -87,8 +88,8 @@ Result<Whole> describeFile(const std::filesystem::path& path, Console& console) 
     const auto receivers = readReceivers(path);
     if (!receivers) return receivers.error();
     return Whole{"receivers",
-                 {fmt::format("{} shaded receivers\n", formatCount(receivers->size())),
-                  {{"receivers", receivers->size()}}}};
+                 {fmt::format("{} shaded receivers\n", formatCount(receivers->receivers.size())),
+                  {{"receivers", receivers->receivers.size()}}}};
   }
   return badInput(fmt::format(
       "{}: what ends in '{}' is unknown here; info reads .glb .gltf .obj .ply .exr .hdr .png "

@@ -16,6 +16,7 @@
 #include "apps/lambent/verbs.h"
 #include "lambent/image/io.h"
 #include "lambent/reference/path_tracer.h"
+#include "lambent/transport/receivers.h"
 
 namespace lambent::tool {
 
@@ -65,15 +66,19 @@ bool asksForReceivers(const std::filesystem::path& output) {
 Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
                       const trace::RayScene& rays, const light::Environment& environment,
                       Console& console) {
-  std::vector<reference::Probe> probes;
-  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
-    if (scene.materials[std::size_t(scene.meshes[m].material)].isMirror()) continue;
-    for (std::uint32_t v = 0; v < scene.meshes[m].positions.size(); ++v) {
-      const scene::SurfacePoint point = scene::surfaceAtVertex(scene, m, v);
-      Vec3 toViewer = point.normal;
-      if (arguments.eye) toViewer = (*arguments.eye - point.position).normalized();
-      probes.push_back({point, toViewer});
-    }
+  // The bake's own receivers: their rays start where the bake's do.
+  const auto receivers = transport::placeReceivers(scene, {}, rays.offset());
+  if (!receivers) return receivers.error();
+  std::vector<reference::Probe> probes(receivers->size());
+  for (std::size_t r = 0; r < probes.size(); ++r) {
+    scene::SurfacePoint& point = probes[r].point;
+    point.normal = point.geometricNormal = receivers->normals[r];
+    point.position = receivers->origins[r] - rays.offset() * point.normal;
+    point.diffuse = receivers->diffuse[r], point.glossy = receivers->glossy[r];
+    point.mirror = Rgb::Zero();
+    point.lobeExponent = receivers->exponents[r];
+    probes[r].toViewer =
+        arguments.eye ? Vec3((*arguments.eye - point.position).normalized()) : point.normal;
   }
   const auto estimates = reference::exitRadiance(scene, rays, environment, probes,
                                                  arguments.options, console.progress());
@@ -82,7 +87,7 @@ Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
   double variance = 0.0, power = 0.0;
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const reference::Estimate& estimate = (*estimates)[i];
-    file.receivers.push_back({probes[i].point.position, probes[i].point.normal, estimate.mean});
+    file.receivers.push_back({receivers->positions[i], receivers->normals[i], estimate.mean});
     file.variances.push_back(estimate.variance);
     variance += double(estimate.variance.sum());
     power += double(estimate.mean.square().sum());
