@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 KEY = re.compile(r"\b([a-z]+(?:19|20)\d\d[a-z]+)\b")
-PLACES = ["lambent", "apps", "shaders", "spec", "bench", "examples", "tests", "docs", "cmake"]
+PLACES = ["lambent", "apps", "shaders", "spec", "bench", "examples", "tests", "docs", "cmake", "figures"]
 SUFFIXES = {".h", ".cpp", ".glsl", ".md", ".py", ".cmake", ".txt"}
 
 

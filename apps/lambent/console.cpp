@@ -114,10 +114,9 @@ int Console::fail(const Error& error) {
   const int code = exitCodeOf(error.kind);
   fmt::print(stderr, "error: {}\n", error.message);
   if (options_.json) {
-    const Json whole = {{"status", "failed"},
-                        {"exit_code", code},
-                        {"error", error.message},
-                        {"findings", findingsAsJson()}};
+    Json whole = {{"status", "failed"}, {"exit_code", code}, {"error", error.message}};
+    whole.update(kept_);
+    whole["findings"] = findingsAsJson();
     fmt::print("{}\n", whole.dump(2, ' ', false, Json::error_handler_t::replace));
   }
   return code;

@@ -59,6 +59,8 @@ class Console {
 
   /// The verb is done: prints `text`, or under --json `summary` with status, findings and stages.
   void finish(Json summary, std::string_view text);
+  /// What the JSON summary is to hold even if the verb fails after all.
+  void keep(Json summary) { kept_ = std::move(summary); }
   /// The verb is not done: prints the error and returns the exit code.
   int fail(const Error& error);
 
@@ -70,6 +72,7 @@ class Console {
   ConsoleOptions options_;
   ProgressBar bar_;
   Findings findings_;
+  Json kept_ = Json::object();
 };
 
 }  // namespace lambent::tool

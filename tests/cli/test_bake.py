@@ -187,6 +187,9 @@ class Compare(ToolTest):
         result = self.run_tool("compare", "a.png", "b.png", "--fail-above", "relative_rmse=0.01",
                                code=FAILED)
         self.assertIn("relative_rmse", result.stderr)
+        summary = self.run_json("compare", "a.png", "b.png", "--fail-above", "rmse=0", code=FAILED)
+        self.assertEqual(summary["status"], "failed")
+        self.assertGreater(summary["rmse"], 0)
 
     def test_strip_and_difference_are_pictures(self):
         self.write("a.png", png(8, 6, lambda x, y: (200, 200, 200)))

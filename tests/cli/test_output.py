@@ -103,6 +103,19 @@ class FullDisk(ToolTest):
         self.assertEqual(os.listdir(disk), [])
 
 
+class OutOfMemory(ToolTest):
+    def test_it_is_said_with_advice(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (1200 << 20, 1200 << 20))
+
+        self.write("ball.obj", ball_obj(256, 128))
+        result = self.run_tool("bake", "ball.obj", "-o", "a.glb", "--material", "glossy", "--bands",
+                               10, "--directions", 64, "--transfer", "shadowed", "--threads", 1,
+                               code=1, preexec_fn=limit)
+        self.assertIn("--bands", result.stderr)
+        self.assertEqual(os.listdir(self.dir), ["ball.obj"])
+
+
 class Interrupted(ToolTest):
     def interrupt(self, number, *args):
         with subprocess.Popen([TOOL, *map(str, args)], cwd=self.dir, text=True,

@@ -1,8 +1,11 @@
 """What the tool says about itself, and how it refuses what is wrongly asked."""
 
 import json
+import os
+import pty
+import subprocess
 
-from harness import DONE, USAGE, ToolTest, ball_obj
+from harness import DONE, TOOL, USAGE, ToolTest, ball_obj
 
 VERBS = ["bake", "light", "shade", "render", "reference", "compare", "info"]
 
@@ -98,6 +101,22 @@ class Usage(ToolTest):
         self.assertNotIn("\r", plain.stderr)
         self.assertNotIn("\033", plain.stderr)
         self.assertIn("Mrays/s", plain.stdout)
+
+    def test_a_terminal_gets_a_bar(self):
+        self.write("ball.obj", ball_obj(128, 64))
+        terminal, tool_side = pty.openpty()
+        process = subprocess.Popen([TOOL, "bake", "ball.obj", "-o", "a.glb"], cwd=self.dir,
+                                   stdout=subprocess.DEVNULL, stderr=tool_side)
+        os.close(tool_side)
+        seen = b""
+        try:
+            while chunk := os.read(terminal, 65536):
+                seen += chunk
+        except OSError:  # how a terminal says that its other side is gone
+            pass
+        os.close(terminal)
+        self.assertEqual(process.wait(), DONE)
+        self.assertRegex(seen.decode(), r"\r.*\[#*\.*\] +\d+%  [\d.]+ M?k?rays/s  [\d.]+ s left")
 
     def test_help_is_no_error(self):
         self.assertEqual(self.run_tool("--help", code=DONE).stderr, "")
