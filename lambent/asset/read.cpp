@@ -231,7 +231,13 @@ std::vector<int> parentsOf(const json& nodes) {
 Result<Asset> read(const std::filesystem::path& path) {
   const std::string name = path.string();
   Result<GltfFile> file = GltfFile::open(path);
-  if (!file) return file.error();
+  if (!file) {
+    const std::filesystem::path kind = path.extension();
+    std::error_code ignored;
+    if (kind != ".glb" && kind != ".gltf" && std::filesystem::exists(path, ignored))
+      return report::badInput(name + ": is not an asset: bake it first with `lambent bake`");
+    return file.error();
+  }
   const json& document = file->json();
   const json* root = extensionOf(document);
   if (!root)

@@ -219,6 +219,18 @@ TEST(AssetRead, TheSameAssetAsJsonAndBinSideBySide) {
   EXPECT_TRUE(*answer);
 }
 
+TEST(AssetRead, AnUnbakedMeshIsSentToTheBake) {
+  const Folder folder;
+  const std::string_view mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  ASSERT_TRUE(file::writeAtomically(folder / "mesh.obj", mesh));
+  const Result<Asset> read = asset::read(folder / "mesh.obj");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("bake it first"), std::string::npos) << read.error().message;
+  const Result<Asset> missing = asset::read(folder / "missing.obj");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().message.find("bake it first"), std::string::npos);
+}
+
 TEST(IsAsset, TellsAssetsFromOtherFiles) {
   const Folder folder;
   ASSERT_TRUE(write(everyLayout(), folder / "asset.glb"));
