@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Bakes the Stanford bunny, relights it with a real environment map, and compares with the
 # path-traced truth. usage: tools/demo.sh LAMBENT [OUTPUT-FOLDER]
+# The README's strip: DEMO_SIZE=320x288 DEMO_PATHS=2048 tools/demo.sh …
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lambent=$1
@@ -9,7 +10,8 @@ inputs=build/inputs
 mkdir -p "$out"
 
 light=$inputs/hdri/workshop.exr
-view=(--size 576x512 --light "$light" --rotate-y 270)
+size=${DEMO_SIZE:-576x512} paths=${DEMO_PATHS:-512}
+view=(--size "$size" --light "$light" --rotate-y 270)
 
 echo "1/4  bake: how light moves over the bunny's 34,835 vertices and the floor it stands on"
 "$lambent" bake "$inputs/bunny.obj" -o "$out/bunny.glb" --ground --albedo 0.75,0.65,0.55
@@ -21,7 +23,7 @@ echo
 echo "3/4  reference: the same picture path-traced"
 # The light is cut to the 5 bands of the bake, so that the comparison shows the error of the baked
 # transfer and not that of the light.
-"$lambent" reference "$out/bunny.glb" "${view[@]}" --bands 5 --spp 512 -o "$out/truth.exr"
+"$lambent" reference "$out/bunny.glb" "${view[@]}" --bands 5 --spp "$paths" -o "$out/truth.exr"
 echo
 echo "4/4  compare: how far from the truth is the baked picture, in light cut to 5 bands?"
 "$lambent" compare "$out/truth.exr" "$out/ours.exr" --strip "$out/strip.png" |
