@@ -16,8 +16,11 @@ SUFFIXES = {".h", ".cpp", ".glsl", ".md", ".py", ".cmake", ".txt"}
 
 def main() -> int:
     bibliography = (ROOT / "docs/references.bib").read_text()
-    known = set(re.findall(r"^@\w+\{([^,\s]+),", bibliography, re.MULTILINE))
-    cited, dead = set(), []
+    entries = re.findall(r"^@\w+\{([^,\s]+),", bibliography, re.MULTILINE)
+    known = set(entries)
+    cited = set()
+    dead = [f"docs/references.bib: {key} stands there twice"
+            for key in sorted(known) if entries.count(key) > 1]
     for place in PLACES:
         for path in sorted((ROOT / place).rglob("*")):
             if path.suffix not in SUFFIXES or not path.is_file():
