@@ -222,6 +222,18 @@ class Pictures(ToolTest):
         self.assertGreater(summary["noise"], 0.0)
         self.assertLessEqual(summary["beyond_noise"], summary["relative_rmse"])
 
+    def test_the_truth_at_every_vertex(self):
+        self.bake("ball.obj", "ball.glb", "--directions", 4096, "--encoding", "float32")
+        self.run_tool("shade", "ball.glb", *self.LIGHT, "-o", "ours.csv")
+        for output in ("truth.csv", "truth.ply"):
+            self.run_tool("reference", "ball.glb", *self.LIGHT, "-o", output, "--bands", 5, "--spp",
+                          1024)
+        summary = self.run_json("compare", "truth.csv", "ours.csv", "--fail-above",
+                                "beyond_noise=0.01", "--fail-above", "bias=0.01")
+        self.assertEqual(summary["count"], 114)
+        self.assertGreater(summary["noise"], 0)
+        self.run_tool("compare", "truth.csv", "truth.ply", "--fail-above", "rmse=1e-6")
+
     def test_the_reference_has_a_layer_of_variance(self):
         self.write("ball.obj", ball_obj())
         self.run_tool("reference", "ball.obj", *self.LIGHT, *self.SIZE, "-o", "a.exr", "--spp", 4)
