@@ -75,8 +75,9 @@ TEST(DirectionSet, IsEquallyWeightedWithTightBundles) {
     for (std::size_t i = 16 * b; i < std::min<std::size_t>(16 * b + 16, set.size()); ++i) {
       const auto& bundle = set.bundles()[b];
       const float cosine = bundle.axis.dot(set[i]);
-      if (bundle.sinAngle < 1.0f)
+      if (bundle.sinAngle < 1.0f) {
         EXPECT_LE(std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)), bundle.sinAngle + 1e-6f);
+      }
     }
 }
 

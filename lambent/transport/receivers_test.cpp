@@ -67,8 +67,11 @@ TEST(Receivers, OriginsLeaveTheEdgeAlongTheSurface) {
     EXPECT_NEAR(moved.y(), 1e-3f, 1e-7f);
     for (const int axis : {0, 2}) {
       const float at = receivers->positions[r][axis];
-      if (std::abs(at) == 1.0f) EXPECT_LT(moved[axis] * at, -1e-4f);  // inwards
-      if (std::abs(at) < 1.0f) EXPECT_LT(std::abs(moved[axis]), 3e-4f);
+      if (std::abs(at) == 1.0f) {
+        EXPECT_LT(moved[axis] * at, -1e-4f);  // inwards
+      } else {
+        EXPECT_LT(std::abs(moved[axis]), 3e-4f);
+      }
     }
   }
 }
