@@ -125,7 +125,7 @@ std::optional<Channels> chooseChannels(const Imf::ChannelList& list, std::string
   for (const std::string& name : names) {
     const size_t dot = name.rfind('.');
     if (dot == std::string::npos) continue;
-    if (std::optional<Channels> layer = colourOf(names, name.substr(0, dot + 1))) return layer;
+    if (std::optional<Channels> found = colourOf(names, name.substr(0, dot + 1))) return found;
   }
   if (names.size() == 1) return Channels{{names[0], names[0], names[0]}, "", false};
   return std::nullopt;

@@ -33,12 +33,8 @@ Mat4 shifted(const Mat4& clipFromWorld, const Vec2& place, int width, int height
 Eigen::Vector4f eyeOf(const scene::Camera& camera) {
   const Eigen::Vector3f back = camera.worldFromCamera.block<3, 1>(0, 2).normalized();
   const Eigen::Vector3f position = camera.worldFromCamera.block<3, 1>(0, 3);
-  Eigen::Vector4f eye;
-  if (camera.orthographicHalfHeight)
-    eye << back, 0.0f;
-  else
-    eye << position, 1.0f;
-  return eye;
+  if (camera.orthographicHalfHeight) return {back.x(), back.y(), back.z(), 0.0f};
+  return {position.x(), position.y(), position.z(), 1.0f};
 }
 
 struct Target {
