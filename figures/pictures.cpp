@@ -164,7 +164,7 @@ void figure11(const Studio& studio) {
   Sheet sheet;
   sheet.columnLabels = {"(a) unshadowed", "(b) interreflected", "(c) unshadowed",
                         "(d) interreflected"};
-  const light::Environment environment = studio.hdri("venice").rotated(turnedY(60));
+  const light::Environment environment = studio.hdri("workshop").rotated(turnedY(270));
   const sh::RgbCoefficients light = environment.project(5);
   for (const char* file : {"bunny.obj", "dragon/dragon_vrip_res3.ply"}) {
     const scene::Scene mesh = studio.load(file);
@@ -189,7 +189,7 @@ void figure12(const Studio& studio) {
   scene::Scene teapot = studio.load("teapot.obj");
   for (scene::Mesh& mesh : teapot.meshes) mesh = smoothlySubdivided(welded(mesh), 2);
   const scene::Camera camera = portrait(teapot);
-  const light::Environment environment = studio.hdri("venice").rotated(turnedY(60));
+  const light::Environment environment = studio.hdri("workshop").rotated(turnedY(270));
   const sh::RgbCoefficients light = environment.project(5);
   Sheet sheet;
   sheet.columnLabels = {"shadowed", "1 bounce", "2 bounces", "4 bounces", "path-traced"};

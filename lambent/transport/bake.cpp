@@ -80,7 +80,8 @@ class PassRunner {
         arena_(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
                            : tbb::task_arena::automatic) {}
 
-  /// work(chunk, begin, end, thread's scratch). False: cancelled.
+  /// work(chunk, begin, end, thread's scratch): receivers order[begin] … order[end − 1]. False:
+  /// cancelled.
   template <class Work>
   bool run(std::string_view stage, std::size_t receivers, std::uint64_t unitsPerReceiver,
            std::string_view unit, const Work& work) {
@@ -163,6 +164,7 @@ class Bake {
   Bake(const Simulation& simulation, const Progress& progress)
       : s_(simulation),
         runner_(progress, simulation.options.threads),
+        order_(spatialOrder(simulation.receivers)),
         total_(s_.receivers.size() * s_.rowStride),
         totalMatrices_(s_.glossyCount * s_.matrixStride()) {}
 
@@ -198,6 +200,7 @@ class Bake {
 
   const Simulation& s_;
   PassRunner runner_;
+  std::vector<std::uint32_t> order_;          ///< neighbours after each other: caches stay warm
   std::vector<float> total_, totalMatrices_;  ///< sums over passes of E and M
   std::vector<float> exitRows_, matrices_;    ///< the pass before: ρ/π E, M
   std::vector<float> nextRows_, nextMatrices_;
@@ -256,7 +259,8 @@ bool Bake::runDirect(bool bouncing) {
       unshadowed ? "receivers" : "rays",
       [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
         Gathered gathered(s_);
-        for (std::uint32_t r = begin; r < end; ++r) {
+        for (std::uint32_t k = begin; k < end; ++k) {
+          const std::uint32_t r = order_[k];
           if (unshadowed) {
             gatherUnshadowed(s_, r, gathered, scratch);
           } else {
@@ -300,9 +304,10 @@ bool Bake::runBounce(int bounce) {
       runner_.run("bounce " + std::to_string(bounce), s_.receivers.size(), 1, "receivers",
                   [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
                     Gathered gathered(s_);
-                    for (std::uint32_t r = begin; r < end; ++r) {
+                    for (std::uint32_t k = begin; k < end; ++k) {
+                      const std::uint32_t r = order_[k];
                       if (kept_[chunk].kept)
-                        kept_[chunk].get(r - begin, scratch.hits);
+                        kept_[chunk].get(k - begin, scratch.hits);
                       else
                         castAndSort(r, scratch);
                       gatherBounce(s_, r, scratch.hits, previous, gathered, scratch);

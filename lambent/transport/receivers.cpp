@@ -169,6 +169,26 @@ Result<Receivers> placeReceivers(const scene::Scene& scene, std::span<const Texe
   return receivers;
 }
 
+std::vector<std::uint32_t> spatialOrder(const Receivers& receivers) {
+  scene::Box box;
+  for (const Vec3& p : receivers.positions) box.extend(p);
+  const Vec3 scale = (box.upper - box.lower).cwiseMax(1e-30f).cwiseInverse() * 1023.0f;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed(receivers.size());
+  for (std::uint32_t r = 0; r < keyed.size(); ++r) {
+    const Vec3 at = (receivers.positions[r] - box.lower).cwiseProduct(scale);
+    std::uint32_t key = 0;
+    for (int bit = 9; bit >= 0; --bit)
+      for (int axis = 0; axis < 3; ++axis)
+        key = (key << 1) | ((static_cast<std::uint32_t>(at[axis]) >> bit) & 1u);
+    keyed[r] = {key, r};
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(keyed.size());
+  for (const auto& [key, r] : keyed) order.push_back(r);
+  return order;
+}
+
 std::uint32_t drawReceiver(const scene::Scene& scene, const Receivers& receivers,
                            std::uint32_t mesh, std::uint32_t triangle, float u, float v, float u1,
                            float u2) {

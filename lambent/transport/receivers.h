@@ -40,6 +40,11 @@ struct Receivers {
 Result<Receivers> placeReceivers(const scene::Scene& scene, std::span<const TexelGrid> texels,
                                  float offset);
 
+/// All receivers along a Morton curve through their bounding box. Rays from neighbours walk the
+/// same part of the acceleration structure: a scan with its vertices in any sequence is baked as
+/// fast as a well-ordered one.
+std::vector<std::uint32_t> spatialOrder(const Receivers& receivers);
+
 /// The receiver that stands for a point of a surface: one of the corners of its triangle (or of
 /// the four texels around it), drawn in proportion to the weights of linear interpolation. An
 /// average over many points converges to the interpolated value, with one look-up a point.

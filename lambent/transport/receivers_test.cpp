@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "lambent/scene/shapes.h"
 
 namespace lambent::transport {
@@ -83,6 +85,20 @@ TEST(Receivers, OverlappingUvsAreRefused) {
   const auto receivers = placeReceivers(scene, {&grid, 1}, 0.0f);
   ASSERT_FALSE(receivers);
   EXPECT_EQ(receivers.error().kind, ErrorKind::BadInput);
+}
+
+TEST(Receivers, SpatialOrderVisitsEveryReceiverOnceAndNeighboursTogether) {
+  scene::Scene scene = scene::sceneOf(scene::gridPlane(1.0f, 1.0f, 31, 31));
+  const auto receivers = placeReceivers(scene, {}, 0.0f);
+  ASSERT_TRUE(receivers);
+  const std::vector<std::uint32_t> order = spatialOrder(*receivers);
+  std::vector<std::uint32_t> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::uint32_t r = 0; r < receivers->size(); ++r) EXPECT_EQ(sorted[r], r);
+  float length = 0.0f;
+  for (std::size_t k = 1; k < order.size(); ++k)
+    length += (receivers->positions[order[k]] - receivers->positions[order[k - 1]]).norm();
+  EXPECT_LT(length / static_cast<float>(order.size()), 2.5f / 31.0f);
 }
 
 TEST(Receivers, DrawingCornersInterpolates) {
