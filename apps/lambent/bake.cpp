@@ -224,7 +224,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
                   "Memory for remembered hits, as in 2GB; what does not fit is cast again")
       ->transform(CLI::AsSizeValue(false))
       ->option_text("SIZE")
-      ->default_str("2GiB")
+      ->default_str("3GiB")
       ->group("Output");
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runBake(*arguments, console); }};

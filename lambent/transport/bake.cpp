@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -129,33 +130,58 @@ class PassRunner {
   tbb::enumerable_thread_specific<Scratch> scratches_;
 };
 
-/// The hits of a chunk's receivers, kept from pass 0 for the bounces.
-struct KeptHits {
-  bool kept = false;
-  std::vector<std::uint32_t> begin, mirroredBegin;  ///< one for each receiver, and the end
-  std::vector<std::uint32_t> receiver;
-  std::vector<std::uint16_t> direction;
-  std::vector<MirroredHit> mirrored;
-
-  void add(const ReceiverHits& hits) {
-    begin.push_back(static_cast<std::uint32_t>(receiver.size()));
-    mirroredBegin.push_back(static_cast<std::uint32_t>(mirrored.size()));
-    receiver.insert(receiver.end(), hits.receiver.begin(), hits.receiver.end());
-    direction.insert(direction.end(), hits.direction.begin(), hits.direction.end());
-    mirrored.insert(mirrored.end(), hits.mirrored.begin(), hits.mirrored.end());
+/// The hits of a chunk's receivers, kept from pass 0 for the bounces. Directions are kept as a list
+/// or, where that is shorter, as one bit for each direction of the set: 4 to 6 bytes a hit.
+class KeptHits {
+ public:
+  void add(const ReceiverHits& hits, std::size_t directionCount) {
+    begin_.push_back(static_cast<std::uint32_t>(receiver_.size()));
+    directionBegin_.push_back(static_cast<std::uint32_t>(directions_.size()));
+    mirroredBegin_.push_back(static_cast<std::uint32_t>(mirrored_.size()));
+    receiver_.insert(receiver_.end(), hits.receiver.begin(), hits.receiver.end());
+    mirrored_.insert(mirrored_.end(), hits.mirrored.begin(), hits.mirrored.end());
+    const std::size_t words = wordsFor(directionCount);
+    if (hits.direction.size() <= words) {
+      directions_.insert(directions_.end(), hits.direction.begin(), hits.direction.end());
+      return;
+    }
+    const std::size_t first = directions_.size();
+    directions_.resize(first + words);
+    for (const std::uint16_t d : hits.direction)
+      directions_[first + d / 16] |= static_cast<std::uint16_t>(1u << (d % 16));
   }
-  void get(std::size_t which, ReceiverHits& hits) const {
+
+  /// Gives back what add() number `which` took: hits are in the sequence of their directions.
+  void get(std::size_t which, std::size_t directionCount, ReceiverHits& hits) const {
     const auto slice = [which](const auto& from, const auto& starts, auto& to) {
       const std::size_t last = which + 1 < starts.size() ? starts[which + 1] : from.size();
       to.assign(from.begin() + starts[which], from.begin() + static_cast<std::ptrdiff_t>(last));
     };
-    slice(receiver, begin, hits.receiver);
-    slice(direction, begin, hits.direction);
-    slice(mirrored, mirroredBegin, hits.mirrored);
+    slice(receiver_, begin_, hits.receiver);
+    slice(mirrored_, mirroredBegin_, hits.mirrored);
+    const std::size_t words = wordsFor(directionCount);
+    if (hits.receiver.size() <= words) return slice(directions_, directionBegin_, hits.direction);
+    hits.direction.clear();
+    for (std::size_t w = 0; w < words; ++w)
+      for (unsigned bits = directions_[directionBegin_[which] + w]; bits != 0; bits &= bits - 1)
+        hits.direction.push_back(static_cast<std::uint16_t>(16 * w + std::countr_zero(bits)));
   }
+
   std::size_t bytes() const {
-    return receiver.size() * 4 + direction.size() * 2 + mirrored.size() * sizeof(MirroredHit);
+    return receiver_.size() * 4 + directions_.size() * 2 + mirrored_.size() * sizeof(MirroredHit);
   }
+  void shrink() {
+    receiver_.shrink_to_fit(), directions_.shrink_to_fit(), mirrored_.shrink_to_fit();
+  }
+  bool empty() const { return begin_.empty(); }
+
+ private:
+  static std::size_t wordsFor(std::size_t directionCount) { return (directionCount + 15) / 16; }
+
+  std::vector<std::uint32_t> begin_, directionBegin_, mirroredBegin_;  ///< of every receiver
+  std::vector<std::uint32_t> receiver_;
+  std::vector<std::uint16_t> directions_;
+  std::vector<MirroredHit> mirrored_;
 };
 
 /// The whole of a bake's state: sums over passes, and the pass before.
@@ -273,7 +299,7 @@ bool Bake::runDirect(bool bouncing) {
               scratch.counts.rays += scratch.cast.raysCast;
             }
             gatherDirect(s_, r, gathered, scratch);
-            if (bouncing) kept_[chunk].add(scratch.hits);
+            if (bouncing) kept_[chunk].add(scratch.hits, s_.directions.size());
           }
           energy[chunk] += store(r, gathered, bouncing ? exitRows_.data() : nullptr,
                                  bouncing ? matrices_.data() : nullptr);
@@ -282,9 +308,7 @@ bool Bake::runDirect(bool bouncing) {
         KeptHits& kept = kept_[chunk];
         const std::size_t bytes = kept.bytes();
         if (keptBytes.fetch_add(bytes) + bytes <= s_.options.hitMemory) {
-          kept.kept = true;
-          kept.receiver.shrink_to_fit(), kept.direction.shrink_to_fit();
-          kept.mirrored.shrink_to_fit();
+          kept.shrink();
         } else {
           // No room: this chunk casts again in every bounce, to the same records.
           keptBytes -= bytes;
@@ -306,8 +330,8 @@ bool Bake::runBounce(int bounce) {
                     Gathered gathered(s_);
                     for (std::uint32_t k = begin; k < end; ++k) {
                       const std::uint32_t r = order_[k];
-                      if (kept_[chunk].kept)
-                        kept_[chunk].get(k - begin, scratch.hits);
+                      if (!kept_[chunk].empty())
+                        kept_[chunk].get(k - begin, s_.directions.size(), scratch.hits);
                       else
                         castAndSort(r, scratch);
                       gatherBounce(s_, r, scratch.hits, previous, gathered, scratch);

@@ -26,8 +26,8 @@ struct BakeOptions {
       0.0;                 ///< stop when a pass has less than this fraction of pass 0's energy
   std::uint64_t seed = 0;  ///< turns the direction set; two seeds give independent errors
   int threads = 0;         ///< 0: as many as the machine has. No effect on the result's bytes
-  std::size_t hitMemory = std::size_t(2)
-                          << 30;  ///< bytes for remembered hits; what does not fit is cast again
+  /// Bytes for remembered hits; what does not fit is cast again in every bounce.
+  std::size_t hitMemory = std::size_t(3) << 30;
   std::vector<TexelGrid> texels;  ///< meshes not named here are baked at their vertices
 };
 

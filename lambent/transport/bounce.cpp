@@ -9,9 +9,9 @@
 // towards any p, diffuse or glossy, so that both light each other in one scene; the seed's two
 // rules are the unmixed cases. reflect(v, N) = 2 (N·v) N − v with v = −s_d, the direction from q to
 // p: read so, the rule looks where the mirrored ray goes. The rays are not cast again: hits are
-// kept as six bytes each, and a bounce is a sparse product. A hit takes the light of one corner of
-// the triangle, drawn by its weight (see drawReceiver), instead of blending three: a third of the
-// traffic for an error far below that of the directions.
+// kept in four to six bytes each, and a bounce is a sparse product. A hit takes the light of one
+// corner of the triangle, drawn by its weight (see drawReceiver), instead of blending three: a
+// third of the traffic for an error far below that of the directions.
 #include <algorithm>
 
 #include "lambent/math/directions.h"

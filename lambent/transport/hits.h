@@ -24,7 +24,7 @@ struct MirrorEscape {
   Rgb throughput;
 };
 
-/// One receiver's hits on front faces of surfaces that record transfer: six bytes each.
+/// One receiver's hits on front faces of surfaces that record transfer, by rising direction.
 struct ReceiverHits {
   std::vector<std::uint32_t> receiver;   ///< who lights
   std::vector<std::uint16_t> direction;  ///< from where
