@@ -10,9 +10,9 @@
 namespace lambent::report {
 
 enum class ErrorKind {
-  Failed,     ///< the work failed: no memory, no device, disk full (exit code 1)
+  Failed,     ///< the work failed: no memory, no device (exit code 1)
   BadUsage,   ///< the caller asked for something that makes no sense (exit code 2)
-  BadInput,   ///< a file or its content is unusable (exit code 3)
+  BadInput,   ///< a file is unusable: its content, its place, a disk that is full (exit code 3)
   Cancelled,  ///< the Progress callback asked to stop
 };
 

@@ -1,4 +1,4 @@
-// Projection of functions given as code.  Images are projected in lambent/light.
+// Projection of functions given as code.  Images are projected in lambent/image.
 #pragma once
 
 #include <functional>
