@@ -219,7 +219,7 @@ void table1(const Studio& studio) {
     std::string shape, seedTime, seedRate;
   };
   scene::Scene teapot = studio.load("teapot.obj");
-  for (scene::Mesh& mesh : teapot.meshes) mesh = smoothlySubdivided(welded(mesh), 3);
+  for (scene::Mesh& mesh : teapot.meshes) mesh = smoothlySubdivided(welded(mesh), 4);
   const scene::Material diffuse = diffuseMaterial(Rgb::Constant(0.7f));
   const scene::Material glossy = glossyMaterial(Rgb::Constant(0.7f), 16);
   const scene::Scene bunny = studio.load("bunny.obj");
@@ -232,7 +232,8 @@ void table1(const Studio& studio) {
       {"dragon", madeOf(dragon, glossy), 0, "25x25-matrix", "2.4 h (tyra, 100k)", "2.2/9.4/83"},
       {"teapot", madeOf(teapot, glossy), 0, "25x25-matrix", "4.4 h (teapot, 150k)", "1.7/7.7/49"}};
   fmt::print(
-      "| model | receivers | transfer | preprocessing | the seed's | shading, one CPU thread | the "
+      "| model | receivers | transfer | preprocessing | the paper's | shading, one CPU thread | "
+      "the "
       "seed's frames |\n|---|---|---|---|---|---|---|\n");
   const sh::RgbCoefficients light = studio.hdri("venice").project(5);
   for (const Row& row : rows) {

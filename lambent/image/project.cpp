@@ -1,7 +1,7 @@
 // Projection of environment maps: sloan2002precomputed eq. 1 and §6.2 (B_i(s) = y_i(s) ds),
 // ramamoorthi2001efficient eq. 10.
 //
-//   ds       solid angle of a pixel. The seed uses the differential one at the pixel's centre,
+//   ds       solid angle of a pixel. The paper uses the differential one at the pixel's centre,
 //            4/n² (1 + a² + b²)^(−3/2) on a cube; we use the exact one, so that a constant is
 //            projected without error (six 4×4 faces: worst squared error .94 % against 1.21 %).
 //

@@ -139,7 +139,7 @@ SquaredError cubeError(int n, const std::vector<double>& weights) {
   return {difference.squaredNorm() / kCount, largest * largest};
 }
 
-/// The seed's weights: the differential solid angle at each pixel's centre.
+/// The paper's weights: the differential solid angle at each pixel's centre.
 std::vector<double> differentialAngles(int n) {
   std::vector<double> weights;
   for (int y = 0; y < 6 * n; ++y) {

@@ -19,7 +19,7 @@ namespace lambent::scene {
 ///  - diffuse: exit radiance ρ/π · irradiance.
 ///  - glossy:  exit radiance k · ∫ L(s) G(s, R) ds over the hemisphere of the normal, with R the
 ///             view direction mirrored about the normal and G the Phong-like lobe
-///             (r+1)/2π · max(0, s·R)^r of unit integral (seed: Sloan 2002 §4.2).
+///             (r+1)/2π · max(0, s·R)^r of unit integral (Sloan 2002 §4.2).
 ///  - mirror:  a perfect reflection. A surface with any mirror reflectance is a mirror and nothing
 ///             else: it connects paths and records no transfer (Sloan 2002 §5).
 struct Material {

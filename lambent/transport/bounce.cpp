@@ -6,7 +6,7 @@
 //     glossy   (M_p)^b_ij += (1−V_p) (Σ_k α_k G_k (M_q)^{b−1}_kj y_k(reflect(−s_d, N_q))) y_i(s_d)
 //
 // Where we deviate, and why. A diffuse q sends its exit vector ρ/π E and a glossy q its lobe
-// towards any p, diffuse or glossy, so that both light each other in one scene; the seed's two
+// towards any p, diffuse or glossy, so that both light each other in one scene; the paper's two
 // rules are the unmixed cases. reflect(v, N) = 2 (N·v) N − v with v = −s_d, the direction from q to
 // p: read so, the rule looks where the mirrored ray goes. The rays are not cast again: hits are
 // kept in four to six bytes each, and a bounce is a sparse product. A hit takes the light of one

@@ -158,7 +158,7 @@ TEST(ClosedForm, ClosedRoomIsBlackToTheSkyAndNoLightLeaksIn) {
 }
 
 TEST(ClosedForm, GlossyShadowedMatrixIsTheSumOverDirectionsEntryForEntry) {
-  // The seed's rule, naively, over the same directions: Σ w V y_i y_j. Half the hemisphere is
+  // The paper's rule, naively, over the same directions: Σ w V y_i y_j. Half the hemisphere is
   // blocked by a wall, and visibility enters in full (no analytic part), so both sums agree.
   scene::Scene scene;
   scene::Material glossy = diffuse(0.0f);
@@ -264,7 +264,7 @@ TEST(ClosedForm, MirrorWallDoublesTheSky) {
 TEST(ClosedForm, GlossyBounceLooksWhereTheMirroredRayGoes) {
   // A diffuse receiver faces a sharp glossy floor below it; the light comes from +x, 45° up. The
   // floor must throw it towards −x going up: a receiver on a wall at +x facing −x gets nothing by
-  // the lobe, a receiver on a wall at −x facing +x does. Reversing the seed's sign swaps them.
+  // the lobe, a receiver on a wall at −x facing +x does. Reversing the paper's sign swaps them.
   scene::Scene scene;
   scene::Material glossy = diffuse(0.0f);
   glossy.glossy = Rgb::Ones();
