@@ -233,8 +233,7 @@ void table1(const Studio& studio) {
       {"teapot", madeOf(teapot, glossy), 0, "25x25-matrix", "4.4 h (teapot, 150k)", "1.7/7.7/49"}};
   fmt::print(
       "| model | receivers | transfer | preprocessing | the paper's | shading, one CPU thread | "
-      "the "
-      "seed's frames |\n|---|---|---|---|---|---|---|\n");
+      "the paper's frames |\n|---|---|---|---|---|---|---|\n");
   const sh::RgbCoefficients light = studio.hdri("venice").project(5);
   for (const Row& row : rows) {
     BakeOptions options = optionsFor(studio, TransferKind::Interreflected, 1);
