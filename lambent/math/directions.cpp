@@ -31,6 +31,36 @@ Vec2 concentricDisc(const Vec2& u) {
   return Vec2(radius * std::cos(angle), radius * std::sin(angle));
 }
 
+Vec2 squareFromDisc(const Vec2& disc) {
+  const float x = disc.x(), y = disc.y(), radius = std::min(1.0f, disc.norm());
+  if (radius == 0) return Vec2(0.5f, 0.5f);
+  const bool wide = std::abs(x) > std::abs(y);
+  // The signed radius is the longer of the square's two coordinates, as above.
+  const float longer = std::copysign(radius, wide ? x : y);
+  const float shorter = longer * (4 / kPiF) * (wide ? std::atan(y / x) : std::atan(x / y));
+  const Vec2 square = wide ? Vec2(longer, shorter) : Vec2(shorter, longer);
+  return (0.5f * (square + Vec2(1, 1))).cwiseMax(0.0f).cwiseMin(1.0f);
+}
+
+Vec3 hemisphereFromSquare(const Vec2& u) {
+  const Vec2 disc = concentricDisc(u);
+  const float squared = std::min(1.0f, disc.squaredNorm());  // 1 − cos θ
+  const float stretch = std::sqrt(2 - squared);              // sin θ = r √(2 − r²)
+  return Vec3(disc.x() * stretch, disc.y() * stretch, 1 - squared);
+}
+
+Vec2 squareFromHemisphere(const Vec3& direction) {
+  const Vec2 flat = direction.head<2>();
+  const float length = flat.norm();
+  if (length == 0) return Vec2(0.5f, 0.5f);
+  const float z = std::clamp(direction.z(), 0.0f, 1.0f);
+  // r = √(1 − z), from sin θ where that keeps more digits.
+  const float radius =
+      length / std::sqrt(1 + z) /
+      std::sqrt(std::max(1e-30f, flat.squaredNorm() + direction.z() * direction.z()));
+  return squareFromDisc(flat / length * (direction.z() <= 0 ? 1.0f : std::min(1.0f, radius)));
+}
+
 static Vec3 fromCosine(float cosTheta, float turn) {
   const float sine = std::sqrt(std::max(0.0f, 1 - cosTheta * cosTheta));
   return Vec3(sine * std::cos(2 * kPiF * turn), sine * std::sin(2 * kPiF * turn), cosTheta);

@@ -13,6 +13,14 @@ Mat3 worldFromTangent(const Vec3& normal);
 /// Area-preserving map of the unit square onto the unit disc that keeps neighbours
 /// (shirley1997low).
 Vec2 concentricDisc(const Vec2& u);
+/// Its inverse; a point outside of the unit disc is taken to its rim.
+Vec2 squareFromDisc(const Vec2& disc);
+
+/// The unit square over the hemisphere about +z, area for area: every cell of an n×n grid covers
+/// 2π/n² sr (shirley1997low with z = 1 − r²). And back: a direction below the horizon is taken to
+/// the horizon.
+Vec3 hemisphereFromSquare(const Vec2& u);
+Vec2 squareFromHemisphere(const Vec3& direction);
 
 Vec3 uniformSphere(const Vec2& u);
 Vec3 uniformHemisphere(const Vec2& u);

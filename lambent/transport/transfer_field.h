@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lambent/math/types.h"
@@ -22,6 +23,16 @@ enum class Layout { None, Vertices, Texels };
 /// it outside (BaseColor), so that the texture's detail survives a per-vertex bake: exit radiance =
 /// base colour(u, v) ⊙ (M · L).
 enum class Albedo { Included, BaseColor };
+
+/// Transfer to a surface that carries meso-structure, in the tangent frame of each receiver: the
+/// matrices that yield the light which arrives at the structure (Sloan 2003 §3, §4.1). Rows are in
+/// the frame (tangent, normal × tangent, normal), columns in the world's.
+struct LocalTransfer {
+  int bands = 0;                      ///< of rows and columns
+  std::vector<float> shadowed;        ///< [receiver][n²][n²], or empty: nothing hides light
+  int channels = 0;                   ///< of `interreflected`: 1 or 3
+  std::vector<float> interreflected;  ///< [receiver][channel][n²][n²], or empty
+};
 
 /// The receivers of one mesh and their transfer. Empty vectors or matrices: the material has no
 /// diffuse, or no glossy, part.
@@ -42,6 +53,8 @@ struct MeshTransfer {
   std::vector<float> matrices;    ///< [receiver][channel][outBands²][inBands²]
   Rgb glossy = Rgb::Zero();       ///< lobe reflectance k, to be applied when shading
   float lobeExponent = 0.0f;      ///< r; free to change in shading unless interreflection is baked
+
+  std::optional<LocalTransfer> local;  ///< bi-scale meshes: then neither vectors nor matrices
 
   std::size_t receiverCount() const { return positions.size(); }
 };

@@ -1,0 +1,1 @@
+#include "lambent/synthesis/atlas.h"

@@ -1,0 +1,38 @@
+// A surface laid out in the unit square: charts, each flattened with little stretch, packed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lambent/report/finding.h"
+#include "lambent/report/progress.h"
+#include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
+
+namespace lambent::synthesis {
+
+struct AtlasOptions {
+  int size = 2048;              ///< texels a side of the map that will lie over it
+  int gutter = 2;               ///< texels at least between charts, ≥ 1
+  bool ownUvs = true;           ///< take the mesh's own UVs if they are sound and do not overlap
+  float maximumStretch = 1.5f;  ///< L² stretch of a chart above which it is cut in two (1: none)
+};
+
+struct Atlas {
+  /// The input with UVs, and vertices doubled where charts meet. Triangles keep their sequence.
+  scene::Mesh mesh;
+  std::vector<std::uint32_t> sourceVertex;  ///< of the input, for each vertex
+  std::vector<std::uint32_t> chartOfTriangle;
+  std::uint32_t charts = 0;
+  bool ownUvs = false;        ///< the mesh's own UVs were taken
+  double stretch = 1.0;       ///< L² stretch over the whole surface (Sander 2001), 1 at best
+  double worstStretch = 1.0;  ///< of the worst chart
+  double usedArea = 0.0;      ///< share of the square that charts cover
+};
+
+/// Any mesh works: holes, several components, genus above 0, non-manifold edges (cut there). A
+/// finding says why own UVs were not taken.
+Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Findings& findings,
+                        const Progress& progress);
+
+}  // namespace lambent::synthesis

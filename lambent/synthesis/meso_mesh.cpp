@@ -1,0 +1,1 @@
+#include "lambent/synthesis/meso_mesh.h"

@@ -1,0 +1,1 @@
+#include "lambent/synthesis/place_ids.h"

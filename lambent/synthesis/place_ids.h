@@ -1,0 +1,27 @@
+// The synthesised texture, which lives on the meso-mesh, read out into a map over the atlas.
+#pragma once
+
+#include <span>
+
+#include "lambent/report/progress.h"
+#include "lambent/report/result.h"
+#include "lambent/synthesis/atlas.h"
+#include "lambent/synthesis/id_map.h"
+#include "lambent/synthesis/meso_mesh.h"
+
+namespace lambent::synthesis {
+
+struct IdMapOptions {
+  int size = 2048;                    ///< texels a side
+  int neighbours = 20;                ///< k of normal shooting
+  Vec2 patchSize = Vec2(0.1f, 0.1f);  ///< metres, as in SynthesisOptions
+};
+
+/// Scan conversion of the atlas, normal shooting to the meso-mesh, and dilation of charts into all
+/// texels around them (each takes the nearest chart texel's id). A texel's id is that of the
+/// meso-vertex it finds, moved on by the texel's own offset from that vertex in the vertex's
+/// tangent plane: the map is as smooth as the patch, not as coarse as the meso-mesh.
+Result<IdMap> placeIds(const Atlas& atlas, const MesoMesh& mesh, std::span<const Vec2> coordinates,
+                       const IdMapOptions& options, const Progress& progress);
+
+}  // namespace lambent::synthesis

@@ -1,0 +1,29 @@
+// A patch's texture spread over a surface (Turk 2001, Tong 2002, as Sloan 2003 §4.3 uses them).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lambent/report/progress.h"
+#include "lambent/report/result.h"
+#include "lambent/synthesis/appearance.h"
+#include "lambent/synthesis/meso_mesh.h"
+
+namespace lambent::synthesis {
+
+struct SynthesisOptions {
+  Vec2 patchSize = Vec2(0.1f, 0.1f);  ///< metres of the surface that the patch's period covers
+  int candidates = 4;                 ///< k of k-coherence
+  int passes = 2;                     ///< corrections at each level
+  /// 0 … 1: how far coarse levels scatter the patch about. 0 repeats it wherever it can.
+  float randomness = 0.5f;
+  std::uint64_t seed = 0;
+};
+
+/// The place q of the patch at every vertex of the meso-mesh, as a fraction of its period, in
+/// [0, 1)². The patch's +x lies along the vertex's tangent, its +y along normal × tangent. The same
+/// at any number of threads.
+Result<std::vector<Vec2>> synthesize(const MesoMesh& mesh, const Appearance& appearance,
+                                     const SynthesisOptions& options, const Progress& progress);
+
+}  // namespace lambent::synthesis

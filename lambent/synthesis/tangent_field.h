@@ -1,0 +1,37 @@
+// A smooth field of tangents over a surface: which way the patch lies.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lambent/report/finding.h"
+#include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
+
+namespace lambent::synthesis {
+
+struct TangentFieldOptions {
+  /// Steering: the field follows this world direction where the surface lets it. None: as smooth as
+  /// the surface allows.
+  std::optional<Vec3> direction;
+  /// How strongly it follows: 0 … 1; 1 projects the direction wherever that is possible.
+  float steering = 0.9f;
+};
+
+struct TangentField {
+  std::vector<Vec3> tangents;  ///< one per vertex of the mesh, unit, at right angles to the normal
+  struct Singularity {
+    std::uint32_t triangle;
+    int index;  ///< +1 or −1; over a closed surface they sum to its Euler characteristic
+  };
+  std::vector<Singularity> singularities;
+};
+
+/// Vertices of equal position share one tangent plane (the mean normal) and one tangent, which is
+/// then turned into each vertex's own plane: borders of UVs leave no seam. Any mesh will do: open,
+/// of several components, of any genus; what is non-manifold is told in `findings`.
+Result<TangentField> tangentField(const scene::Mesh& mesh, const TangentFieldOptions& options,
+                                  Findings& findings);
+
+}  // namespace lambent::synthesis
