@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lambent/asset/rtt_file.h"
 #include "lambent/sh/coefficients.h"
 
 namespace lambent::asset {
@@ -91,6 +92,60 @@ std::optional<std::string> faultOfGrid(const EncodedMesh& t, const scene::Mesh& 
   return std::nullopt;
 }
 
+std::optional<std::string> faultOfLocalMatrices(const EncodedMesh& t, const Numbers& numbers,
+                                                const std::string& name, int channels) {
+  if (numbers.empty()) return std::nullopt;
+  const std::uint64_t matrix = squared(t.biScale->bands) * squared(t.biScale->bands);
+  const std::uint64_t needed = t.receiverCount() * std::uint64_t(channels) * matrix;
+  if (numbers.size() != needed)
+    return "biScale: " + name + ": " + text(numbers.size()) + " numbers where " +
+           text(t.receiverCount()) + " receivers × " + text(std::uint64_t(channels)) +
+           " channels × " + text(matrix) + " need " + text(needed);
+  if (numbers.encoding == Encoding::Snorm8 && numbers.block != matrix)
+    return "biScale: " + name + ": snorm8 needs one scale for each matrix";
+  if (const auto at = firstNonFinite(numbers))
+    return "biScale: " + name + ": not a finite number at receiver " +
+           text(*at / (std::uint64_t(channels) * matrix));
+  return std::nullopt;
+}
+
+std::optional<std::string> faultOfBiScale(const EncodedMesh& t, const scene::Mesh& mesh,
+                                          const encode::EncodedField& field) {
+  const encode::EncodedBiScale& b = *t.biScale;
+  if (t.layout != Layout::Vertices) return std::string("biScale: receivers must be vertices");
+  if (!t.vectors.empty() || !t.matrices.empty())
+    return std::string("biScale: a bi-scale mesh has no vectors or matrices beside it");
+  if (b.rtt < 0 || std::size_t(b.rtt) >= field.rtts.size())
+    return "biScale: rtt is " + std::to_string(b.rtt) + ", and the asset has " +
+           text(field.rtts.size());
+  if (!bandsInRange(b.bands))
+    return "biScale: bands is " + std::to_string(b.bands) + ", not 1 to 10";
+  if (!(b.scale > 0.0f) || !std::isfinite(b.scale))
+    return std::string("biScale: scale must be finite and above 0");
+  if (b.tangents.size() != mesh.positions.size())
+    return "biScale: " + text(b.tangents.size()) + " tangents for " + text(mesh.positions.size()) +
+           " vertices";
+  for (std::size_t i = 0; i < b.tangents.size(); ++i)
+    if (!(std::abs(b.tangents[i].norm() - 1.0f) < 1e-3f) ||
+        !(std::abs(b.tangents[i].dot(mesh.normals[i])) < 1e-2f))
+      return "biScale: tangent " + text(i) + " is not of unit length at right angles to the normal";
+  if (mesh.uvs.size() != mesh.positions.size())
+    return std::string("biScale: the primitive has no TEXCOORD_0 to find the patch by");
+  if (b.idMap) {
+    const std::uint64_t texels = std::uint64_t(b.idMap->width) * std::uint64_t(b.idMap->height);
+    if (b.idMap->width < 1 || b.idMap->height < 1 || b.idMap->width > kLargestGrid ||
+        b.idMap->height > kLargestGrid || b.idMap->ids.size() != 2 * texels)
+      return "biScale: idMap: " + text(b.idMap->ids.size()) + " numbers for " +
+             std::to_string(b.idMap->width) + "×" + std::to_string(b.idMap->height) + " texels";
+  } else if (!b.tiles.allFinite()) {
+    return std::string("biScale: tiles must be finite");
+  }
+  if (auto fault = faultOfLocalMatrices(t, b.shadowed, "shadowed", 1)) return fault;
+  if (!b.interreflected.empty() && !channelsInRange(b.channels))
+    return "biScale: interreflected: channels is " + std::to_string(b.channels) + ", not 1 or 3";
+  return faultOfLocalMatrices(t, b.interreflected, "interreflected", b.channels);
+}
+
 /// Vertex receivers are not stored: they are the primitive's vertices.
 std::optional<std::string> faultOfVertices(const EncodedMesh& t, const scene::Mesh& mesh) {
   if (t.positions.size() != mesh.positions.size() || t.normals.size() != mesh.normals.size())
@@ -115,6 +170,12 @@ std::optional<std::size_t> firstNonFinite(const Numbers& numbers) {
     if (at == numbers.half.end()) return std::nullopt;
     return std::size_t(at - numbers.half.begin());
   }
+  if (numbers.encoding == Encoding::Snorm8) {
+    const auto at = std::find_if(numbers.scales.begin(), numbers.scales.end(),
+                                 [](float f) { return !std::isfinite(f); });
+    if (at == numbers.scales.end()) return std::nullopt;
+    return std::size_t(at - numbers.scales.begin()) * numbers.block;
+  }
   const auto at = std::find_if(numbers.single.begin(), numbers.single.end(),
                                [](float f) { return !std::isfinite(f); });
   if (at == numbers.single.end()) return std::nullopt;
@@ -128,10 +189,10 @@ std::optional<std::size_t> firstNonFinite(std::span<const Vec3> vectors) {
 }
 
 std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mesh& mesh,
-                                   int fieldBands) {
+                                   const encode::EncodedField& field) {
   switch (transfer.layout) {
     case Layout::None:
-      if (!transfer.vectors.empty() || !transfer.matrices.empty())
+      if (!transfer.vectors.empty() || !transfer.matrices.empty() || transfer.biScale)
         return std::string("transfer without receivers");
       return std::nullopt;
     case Layout::Vertices:
@@ -145,11 +206,14 @@ std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mes
     if (auto fault = faultOfVectors(transfer)) return fault;
   if (!transfer.matrices.empty())
     if (auto fault = faultOfMatrices(transfer)) return fault;
-  const int needed = std::max(transfer.vectors.empty() ? 0 : transfer.bands,
-                              transfer.matrices.empty() ? 0 : transfer.inBands);
-  if (needed > fieldBands)
+  if (transfer.biScale)
+    if (auto fault = faultOfBiScale(transfer, mesh, field)) return fault;
+  const int needed = std::max({transfer.vectors.empty() ? 0 : transfer.bands,
+                               transfer.matrices.empty() ? 0 : transfer.inBands,
+                               transfer.biScale ? transfer.biScale->bands : 0});
+  if (needed > field.bands)
     return "takes light of " + std::to_string(needed) + " bands, more than the asset's " +
-           std::to_string(fieldBands);
+           std::to_string(field.bands);
   return std::nullopt;
 }
 
@@ -158,8 +222,9 @@ Status checkSize(const PartBytes& bytes) {
   const auto mebibytes = [](std::uint64_t count) { return text(count >> 20) + " MiB"; };
   return report::failed("a .glb holds at most 4 GiB, and this asset takes " +
                         mebibytes(bytes.total()) + " (" + mebibytes(bytes.vectors) +
-                        " of vectors, " + mebibytes(bytes.matrices) +
-                        " of matrices): bake with float16, fewer bands or fewer receivers");
+                        " of vectors, " + mebibytes(bytes.matrices) + " of matrices, " +
+                        mebibytes(bytes.rtts + bytes.idMaps) +
+                        " of RTTs and id maps): bake with float16, fewer bands or fewer receivers");
 }
 
 Status checkForWriting(const Asset& asset) {
@@ -172,8 +237,11 @@ Status checkForWriting(const Asset& asset) {
   for (double energy : field.passEnergy)
     if (!std::isfinite(energy))
       return report::failed("the energy of a pass is not a finite number");
+  for (std::size_t i = 0; i < field.rtts.size(); ++i)
+    if (auto fault = faultOf(field.rtts[i]))
+      return report::failed("rtt " + text(i) + ": " + *fault);
   for (std::size_t i = 0; i < field.meshes.size(); ++i)
-    if (auto fault = faultOf(field.meshes[i], asset.scene.meshes[i], field.bands))
+    if (auto fault = faultOf(field.meshes[i], asset.scene.meshes[i], field))
       return report::failed(meshLabel(asset.scene, i) + ": " + *fault);
   return checkSize(summarize(asset).bytes);
 }

@@ -19,11 +19,11 @@ std::string meshLabel(const scene::Scene& scene, std::size_t mesh);
 std::optional<std::size_t> firstNonFinite(const encode::Numbers& numbers);
 std::optional<std::size_t> firstNonFinite(std::span<const Vec3> vectors);
 
-/// Shapes and finite numbers of one mesh's transfer against its scene mesh and the bands of the
-/// whole field. The message names the member and, for a number, its receiver, channel and
+/// Shapes and finite numbers of one mesh's transfer against its scene mesh and the bands and RTTs
+/// of the whole field. The message names the member and, for a number, its receiver, channel and
 /// coefficient; the caller says which mesh.
 std::optional<std::string> faultOf(const encode::EncodedMesh& transfer, const scene::Mesh& mesh,
-                                   int fieldBands);
+                                   const encode::EncodedField& field);
 
 /// A .glb ends at 4 GiB: asked before anything of such a size is copied.
 Status checkSize(const PartBytes& bytes);

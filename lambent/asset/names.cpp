@@ -22,8 +22,8 @@ constexpr Table<Layout, 3> kLayouts{
     {{Layout::None, "none"}, {Layout::Vertices, "vertices"}, {Layout::Texels, "texels"}}};
 constexpr Table<Albedo, 2> kAlbedos{
     {{Albedo::Included, "included"}, {Albedo::BaseColor, "baseColor"}}};
-constexpr Table<Encoding, 2> kEncodings{
-    {{Encoding::Float16, "float16"}, {Encoding::Float32, "float32"}}};
+constexpr Table<Encoding, 3> kEncodings{
+    {{Encoding::Float16, "float16"}, {Encoding::Float32, "float32"}, {Encoding::Snorm8, "snorm8"}}};
 
 template <class T, std::size_t N>
 std::string_view find(const Table<T, N>& table, T value) {

@@ -12,6 +12,7 @@
 #include "lambent/asset/check.h"
 #include "lambent/asset/json_fields.h"
 #include "lambent/asset/names.h"
+#include "lambent/asset/rtt_file.h"
 #include "lambent/scene_io/gltf_read.h"
 
 namespace lambent::asset {
@@ -93,15 +94,29 @@ class AccessorReader {
     return values;
   }
 
-  Numbers numbers(JsonFields& fields) {
+  Numbers numbers(JsonFields& fields, bool allowSnorm8 = false) {
     Numbers numbers;
     const auto encoding = encodingNamed(fields.string("encoding"));
-    if (!encoding) fields.complain("encoding", "is neither float16 nor float32");
+    if (!encoding || (encoding == Encoding::Snorm8 && !allowSnorm8))
+      fields.complain("encoding", allowSnorm8 ? "is none of float16, float32 and snorm8"
+                                              : "is neither float16 nor float32");
     numbers.encoding = encoding.value_or(Encoding::Float32);
-    if (numbers.encoding == Encoding::Float16)
-      numbers.half = read<std::uint16_t>(fields, "accessor", Component::UnsignedShort, 1);
-    else
-      numbers.single = read<float>(fields, "accessor", Component::Float, 1);
+    switch (numbers.encoding) {
+      case Encoding::Float16:
+        numbers.half = read<std::uint16_t>(fields, "accessor", Component::UnsignedShort, 1);
+        break;
+      case Encoding::Float32:
+        numbers.single = read<float>(fields, "accessor", Component::Float, 1);
+        break;
+      case Encoding::Snorm8:
+        numbers.byte = read<std::int8_t>(fields, "accessor", Component::Byte, 1);
+        numbers.scales = read<float>(fields, "scales", Component::Float, 1);
+        if (numbers.scales.empty() || numbers.byte.size() % numbers.scales.size() != 0)
+          fields.complain("scales", "do not divide the numbers into equal runs");
+        else
+          numbers.block = numbers.byte.size() / numbers.scales.size();
+        break;
+    }
     if (numbers.empty()) fields.complain("accessor", "is empty");
     return numbers;
   }
@@ -158,6 +173,56 @@ void readGrid(JsonFields grid, AccessorReader& accessors, EncodedMesh& mesh) {
   mesh.covered = accessors.read<std::uint8_t>(grid, "covered", Component::UnsignedByte, 1);
 }
 
+Vec2 pairOf(JsonFields& fields, std::string_view key) {
+  const std::vector<double> pair = fields.numbers(key, 2);
+  if (pair.size() == 2) return Vec2(float(pair[0]), float(pair[1]));
+  fields.complain(key, "is not an array of 2 numbers");
+  return Vec2(1.0f, 1.0f);
+}
+
+encode::EncodedRtt rttOf(JsonFields object, AccessorReader& accessors) {
+  encode::EncodedRtt rtt;
+  if (object.has("name")) rtt.name = object.string("name");
+  rtt.width = int(object.integer("width", 1, kLargestRtt));
+  rtt.height = int(object.integer("height", 1, kLargestRtt));
+  rtt.views = int(object.integer("views", 1, kLargestViews));
+  rtt.bands = int(object.integer("bands", 1, sh::kMaxBands));
+  rtt.size = pairOf(object, "size");
+  rtt.depth = float(object.number("depth", 0.0, std::numeric_limits<float>::max()));
+  JsonFields values = object.object("values");
+  rtt.values = accessors.numbers(values, true);
+  return rtt;
+}
+
+synthesis::IdMap idMapOf(JsonFields object, AccessorReader& accessors) {
+  synthesis::IdMap map;
+  map.width = int(object.integer("width", 1, kLargestGrid));
+  map.height = int(object.integer("height", 1, kLargestGrid));
+  object.integer("texCoord", 0, 0);
+  map.ids = accessors.read<std::uint16_t>(object, "accessor", Component::UnsignedShort, 1);
+  return map;
+}
+
+encode::EncodedBiScale biScaleOf(JsonFields object, AccessorReader& accessors) {
+  encode::EncodedBiScale biScale;
+  biScale.rtt = int(object.integer("rtt", 0, std::numeric_limits<std::int32_t>::max()));
+  biScale.bands = int(object.integer("bands", 1, sh::kMaxBands));
+  biScale.scale = float(object.number("scale", 0.0, std::numeric_limits<float>::max()));
+  biScale.tangents = accessors.read<Vec3>(object, "tangents", Component::Float, 3);
+  if (object.has("idMap")) biScale.idMap = idMapOf(object.object("idMap"), accessors);
+  if (object.has("tiles")) biScale.tiles = pairOf(object, "tiles");
+  if (object.has("shadowed")) {
+    JsonFields matrices = object.object("shadowed");
+    biScale.shadowed = accessors.numbers(matrices, true);
+  }
+  if (object.has("interreflected")) {
+    JsonFields matrices = object.object("interreflected");
+    biScale.channels = int(matrices.integer("channels", 1, 3));
+    biScale.interreflected = accessors.numbers(matrices, true);
+  }
+  return biScale;
+}
+
 EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Mesh& mesh) {
   EncodedMesh transfer;
   const std::string layout = object.string("layout");
@@ -192,6 +257,7 @@ EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Me
         float(matrices.number("lobeExponent", 0.0, std::numeric_limits<float>::max()));
     transfer.matrices = accessors.numbers(matrices);
   }
+  if (object.has("biScale")) transfer.biScale = biScaleOf(object.object("biScale"), accessors);
   return transfer;
 }
 
@@ -253,6 +319,18 @@ Result<Asset> read(const std::filesystem::path& path) {
   asset.scene = std::move(loaded->loaded.scene);
 
   AccessorReader accessors(*file);
+  if (const json* rtts = member(*root, "rtts")) {
+    const std::string place = "extensions." + kExtension + ".rtts";
+    if (!rtts->is_array()) return report::badInput(name + ": " + place + ": is not an array");
+    for (std::size_t i = 0; i < rtts->size(); ++i) {
+      const std::string here = place + "[" + std::to_string(i) + "]";
+      encode::EncodedRtt rtt = rttOf(JsonFields((*rtts)[i], here, fault), accessors);
+      if (!fault.empty()) return report::badInput(name + ": " + fault);
+      if (const auto wrong = faultOf(rtt))
+        return report::badInput(name + ": " + here + ": " + *wrong);
+      asset.transfer.rtts.push_back(std::move(rtt));
+    }
+  }
   const json& nodes = document["nodes"];
   const std::vector<int> parents = parentsOf(nodes);
   for (std::size_t i = 0; i < asset.scene.meshes.size(); ++i) {
@@ -278,7 +356,7 @@ Result<Asset> read(const std::filesystem::path& path) {
     const scene::Mesh& mesh = asset.scene.meshes[i];
     EncodedMesh transfer = meshOf(JsonFields(*object, place, fault), accessors, mesh);
     if (!fault.empty()) return report::badInput(name + ": " + fault);
-    if (const auto wrong = faultOf(transfer, mesh, asset.transfer.bands))
+    if (const auto wrong = faultOf(transfer, mesh, asset.transfer))
       return report::badInput(name + ": " + place + ": " + *wrong);
     asset.transfer.meshes.push_back(std::move(transfer));
   }

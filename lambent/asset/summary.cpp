@@ -12,7 +12,8 @@ std::uint64_t bytesOf(const std::vector<T>& values) {
 }
 
 std::uint64_t bytesOf(const encode::Numbers& numbers) {
-  return bytesOf(numbers.half) + bytesOf(numbers.single);
+  return bytesOf(numbers.half) + bytesOf(numbers.single) + bytesOf(numbers.byte) +
+         bytesOf(numbers.scales);
 }
 
 std::uint64_t bytesOf(const scene::Mesh& mesh) {
@@ -48,10 +49,28 @@ MeshSummary summaryOf(const scene::Scene& scene, const scene::Mesh& mesh,
                                        .glossy = transfer.glossy,
                                        .lobeExponent = transfer.lobeExponent,
                                        .bytes = bytesOf(transfer.matrices)};
+  if (const auto& b = transfer.biScale)
+    summary.biScale = BiScaleSummary{
+        .rtt = b->rtt,
+        .bands = b->bands,
+        .scale = b->scale,
+        .idMapWidth = b->idMap ? b->idMap->width : 0,
+        .idMapHeight = b->idMap ? b->idMap->height : 0,
+        .tiles = b->tiles,
+        .shadowed = !b->shadowed.empty(),
+        .interreflected = !b->interreflected.empty(),
+        .channels = b->channels,
+        .encoding = b->interreflected.empty() ? b->shadowed.encoding : b->interreflected.encoding,
+        .bytes = bytesOf(b->shadowed) + bytesOf(b->interreflected)};
   return summary;
 }
 
 }  // namespace
+
+RttSummary summarize(const encode::EncodedRtt& rtt) {
+  return {rtt.name, rtt.width, rtt.height,          rtt.views,          rtt.bands,
+          rtt.size, rtt.depth, rtt.values.encoding, bytesOf(rtt.values)};
+}
 
 Summary summarize(const Asset& asset) {
   const scene::Scene& scene = asset.scene;
@@ -80,6 +99,16 @@ Summary summarize(const Asset& asset) {
         bytesOf(transfer.positions) + bytesOf(transfer.normals) + bytesOf(transfer.covered);
     if (transfer.layout == transport::Layout::Texels) summary.bytes.receivers += places;
     summary.memoryBytes += places;
+    if (const auto& b = transfer.biScale) {
+      summary.bytes.matrices += bytesOf(b->shadowed) + bytesOf(b->interreflected);
+      if (b->idMap) summary.bytes.idMaps += bytesOf(b->idMap->ids);
+      summary.bytes.receivers += bytesOf(b->tangents);
+      summary.memoryBytes += bytesOf(b->tangents);
+    }
+  }
+  for (const encode::EncodedRtt& rtt : field.rtts) {
+    summary.rtts.push_back(summarize(rtt));
+    summary.bytes.rtts += summary.rtts.back().bytes;
   }
   std::uint64_t decoded = 0;
   for (const scene::Texture& texture : scene.textures) {

@@ -25,6 +25,26 @@ struct MatricesSummary {
   std::uint64_t bytes = 0;
 };
 
+struct RttSummary {
+  std::string name;
+  int width = 0, height = 0, views = 0, bands = 0;
+  Vec2 size = Vec2(1.0f, 1.0f);  ///< metres
+  float depth = 0.0f;
+  encode::Encoding encoding = encode::Encoding::Float16;
+  std::uint64_t bytes = 0;
+};
+
+struct BiScaleSummary {
+  int rtt = 0, bands = 0;
+  float scale = 1.0f;
+  int idMapWidth = 0, idMapHeight = 0;  ///< 0: no id map, the mesh's UVs place the patch
+  Vec2 tiles = Vec2(1.0f, 1.0f);
+  bool shadowed = false, interreflected = false;  ///< which matrices are there
+  int channels = 0;                               ///< of the interreflected ones
+  encode::Encoding encoding = encode::Encoding::Float16;
+  std::uint64_t bytes = 0;  ///< of the matrices
+};
+
 struct MeshSummary {
   std::string name, material;
   bool mirror = false;  ///< reflects, and holds no transfer
@@ -35,6 +55,7 @@ struct MeshSummary {
   std::uint64_t covered = 0;  ///< Texels: receivers with a surface point of their own
   std::optional<VectorsSummary> vectors;
   std::optional<MatricesSummary> matrices;
+  std::optional<BiScaleSummary> biScale;
 };
 
 /// Bytes that each part takes in the file's binary chunk, without the JSON and without padding.
@@ -43,8 +64,12 @@ struct PartBytes {
   std::uint64_t textures = 0;  ///< as encoded in the file
   std::uint64_t vectors = 0;
   std::uint64_t matrices = 0;
-  std::uint64_t receivers = 0;  ///< texel receivers' positions, normals and coverage
-  std::uint64_t total() const { return geometry + textures + vectors + matrices + receivers; }
+  std::uint64_t receivers = 0;  ///< texel receivers' positions, normals and coverage; tangents
+  std::uint64_t rtts = 0;
+  std::uint64_t idMaps = 0;
+  std::uint64_t total() const {
+    return geometry + textures + vectors + matrices + receivers + rtts + idMaps;
+  }
 };
 
 struct Summary {
@@ -57,8 +82,10 @@ struct Summary {
   PartBytes bytes;
   std::uint64_t memoryBytes = 0;  ///< of the Asset in memory, textures decoded
   std::vector<MeshSummary> meshes;
+  std::vector<RttSummary> rtts;
 };
 
+RttSummary summarize(const encode::EncodedRtt& rtt);
 Summary summarize(const Asset& asset);
 
 }  // namespace lambent::asset

@@ -31,12 +31,60 @@ std::span<const std::byte> bytesOf(const std::vector<T>& values) {
   return std::as_bytes(std::span(values));
 }
 
-int addNumbers(GltfBuilder& gltf, const Numbers& numbers) {
-  return numbers.encoding == Encoding::Float16
-             ? gltf.addAccessor(bytesOf(numbers.half), Component::UnsignedShort, "SCALAR",
-                                numbers.size())
-             : gltf.addAccessor(bytesOf(numbers.single), Component::Float, "SCALAR",
-                                numbers.size());
+/// {"accessor", "encoding"} and, for snorm8, "scales".
+json numbersObject(GltfBuilder& gltf, const Numbers& numbers) {
+  json object = {{"encoding", nameOf(numbers.encoding)}};
+  switch (numbers.encoding) {
+    case Encoding::Float16:
+      object["accessor"] = gltf.addAccessor(bytesOf(numbers.half), Component::UnsignedShort,
+                                            "SCALAR", numbers.size());
+      break;
+    case Encoding::Float32:
+      object["accessor"] =
+          gltf.addAccessor(bytesOf(numbers.single), Component::Float, "SCALAR", numbers.size());
+      break;
+    case Encoding::Snorm8:
+      object["accessor"] =
+          gltf.addAccessor(bytesOf(numbers.byte), Component::Byte, "SCALAR", numbers.size());
+      object["scales"] = gltf.addAccessor(bytesOf(numbers.scales), Component::Float, "SCALAR",
+                                          numbers.scales.size());
+      break;
+  }
+  return object;
+}
+
+json numbersObject(GltfBuilder& gltf, const Numbers& numbers, json members) {
+  members.update(numbersObject(gltf, numbers));
+  return members;
+}
+
+json rttObject(GltfBuilder& gltf, const encode::EncodedRtt& rtt) {
+  return {{"name", rtt.name},     {"width", rtt.width},
+          {"height", rtt.height}, {"views", rtt.views},
+          {"bands", rtt.bands},   {"size", {rtt.size.x(), rtt.size.y()}},
+          {"depth", rtt.depth},   {"values", numbersObject(gltf, rtt.values)}};
+}
+
+json biScaleObject(GltfBuilder& gltf, const encode::EncodedBiScale& biScale) {
+  json object = {{"rtt", biScale.rtt},
+                 {"bands", biScale.bands},
+                 {"scale", biScale.scale},
+                 {"tangents", gltf.addAccessor(bytesOf(biScale.tangents), Component::Float, "VEC3",
+                                               biScale.tangents.size())}};
+  if (biScale.idMap)
+    object["idMap"] = {
+        {"width", biScale.idMap->width},
+        {"height", biScale.idMap->height},
+        {"texCoord", 0},
+        {"accessor", gltf.addAccessor(bytesOf(biScale.idMap->ids), Component::UnsignedShort,
+                                      "SCALAR", biScale.idMap->ids.size())}};
+  else
+    object["tiles"] = {biScale.tiles.x(), biScale.tiles.y()};
+  if (!biScale.shadowed.empty()) object["shadowed"] = numbersObject(gltf, biScale.shadowed);
+  if (!biScale.interreflected.empty())
+    object["interreflected"] =
+        numbersObject(gltf, biScale.interreflected, {{"channels", biScale.channels}});
+  return object;
 }
 
 json rootObject(const encode::EncodedField& field) {
@@ -57,19 +105,18 @@ json primitiveObject(GltfBuilder& gltf, const EncodedMesh& mesh) {
   json object;
   object["layout"] = nameOf(mesh.layout);
   if (!mesh.vectors.empty())
-    object["vectors"] = {{"accessor", addNumbers(gltf, mesh.vectors)},
-                         {"encoding", nameOf(mesh.vectors.encoding)},
-                         {"bands", mesh.bands},
-                         {"channels", mesh.channels},
-                         {"albedo", nameOf(mesh.albedo)}};
+    object["vectors"] = numbersObject(
+        gltf, mesh.vectors,
+        {{"bands", mesh.bands}, {"channels", mesh.channels}, {"albedo", nameOf(mesh.albedo)}});
   if (!mesh.matrices.empty())
-    object["matrices"] = {{"accessor", addNumbers(gltf, mesh.matrices)},
-                          {"encoding", nameOf(mesh.matrices.encoding)},
-                          {"outBands", mesh.outBands},
-                          {"inBands", mesh.inBands},
-                          {"channels", mesh.matrixChannels},
-                          {"glossy", {mesh.glossy[0], mesh.glossy[1], mesh.glossy[2]}},
-                          {"lobeExponent", mesh.lobeExponent}};
+    object["matrices"] =
+        numbersObject(gltf, mesh.matrices,
+                      {{"outBands", mesh.outBands},
+                       {"inBands", mesh.inBands},
+                       {"channels", mesh.matrixChannels},
+                       {"glossy", {mesh.glossy[0], mesh.glossy[1], mesh.glossy[2]}},
+                       {"lobeExponent", mesh.lobeExponent}});
+  if (mesh.biScale) object["biScale"] = biScaleObject(gltf, *mesh.biScale);
   if (mesh.layout == Layout::Texels) {
     const std::size_t count = mesh.receiverCount();
     object["grid"] = {
@@ -95,7 +142,10 @@ Status write(const Asset& asset, const std::filesystem::path& path) {
 
   GltfBuilder gltf(asset.scene);
   gltf.useExtension(kExtensionName);
-  gltf.json()["extensions"][std::string(kExtensionName)] = rootObject(asset.transfer);
+  json root = rootObject(asset.transfer);
+  for (const encode::EncodedRtt& rtt : asset.transfer.rtts)
+    root["rtts"].push_back(rttObject(gltf, rtt));
+  gltf.json()["extensions"][std::string(kExtensionName)] = std::move(root);
   for (std::size_t i = 0; i < asset.transfer.meshes.size(); ++i) {
     const EncodedMesh& mesh = asset.transfer.meshes[i];
     if (mesh.layout == Layout::None) continue;

@@ -47,6 +47,9 @@ std::vector<float> decode(const Numbers& numbers);
 /// The same of a stretch of them.
 void decode(const Numbers& numbers, std::size_t first, std::span<float> values);
 
+/// √(Σ (decoded − value)² / Σ value²): what an encoding costs. Spans of one length.
+double encodingError(std::span<const float> values, const Numbers& numbers);
+
 /// meso::RadianceTransferTexture with its numbers encoded; members mean the same.
 struct EncodedRtt {
   std::string name;
@@ -103,6 +106,8 @@ struct EncodedField {
   std::vector<EncodedRtt> rtts;
 };
 
+/// Snorm8: vectors have a scale for each channel of a receiver, matrices one for each matrix. A
+/// bi-scale mesh gets its matrices and tangents; its patch and where that stands are the caller's.
 EncodedField encode(const transport::TransferField& field, Encoding encoding);
 transport::TransferField decode(const EncodedField& field);
 

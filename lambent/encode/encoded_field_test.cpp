@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -95,6 +96,81 @@ TEST(EncodedField, EncodingTwiceChangesNothing) {
   const EncodedField twice = encode(decode(once), Encoding::Float16);
   EXPECT_EQ(once.meshes[0].vectors.half, twice.meshes[0].vectors.half);
   EXPECT_EQ(once.meshes[0].matrices.half, twice.meshes[0].matrices.half);
+}
+
+TEST(Snorm8, ErrsByHalfAStepOfTheBlocksLargestAtMost) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> normal;
+  std::vector<float> values(4 * 100);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = normal(random) * std::pow(10.0f, float(i / 100) - 2.0f);
+  const Numbers numbers = encode(values, Encoding::Snorm8, 100);
+  ASSERT_EQ(numbers.size(), values.size());
+  ASSERT_EQ(numbers.scales.size(), 4u);
+  const std::vector<float> decoded = decode(numbers);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    EXPECT_LE(std::abs(decoded[i] - values[i]), numbers.scales[i / 100] / 254.0f * 1.0001f);
+  for (int b = 0; b < 4; ++b)  // the largest of a block comes back as it was
+    EXPECT_NEAR(*std::max_element(decoded.begin() + 100 * b, decoded.begin() + 100 * b + 100,
+                                  [](float x, float y) { return std::abs(x) < std::abs(y); }) /
+                    *std::max_element(values.begin() + 100 * b, values.begin() + 100 * b + 100,
+                                      [](float x, float y) { return std::abs(x) < std::abs(y); }),
+                1.0f, 1e-6f);
+  // A stretch that begins and ends within blocks.
+  std::vector<float> part(150);
+  decode(numbers, 70, part);
+  EXPECT_TRUE(std::equal(part.begin(), part.end(), decoded.begin() + 70));
+  // A uniform quantiser errs by step/√12.
+  const double step = numbers.scales[3] / 127.0;
+  const std::span<const float> last(values.data() + 300, 100);
+  double squared = 0.0;
+  for (const float v : last) squared += double(v) * v;
+  EXPECT_NEAR(encodingError(last, encode(last, Encoding::Snorm8, 100)),
+              step / std::sqrt(12.0) / std::sqrt(squared / 100.0), 2e-3);
+}
+
+TEST(Snorm8, OfZerosIsZeros) {
+  const std::vector<float> zeros(30, 0.0f);
+  EXPECT_EQ(decode(encode(zeros, Encoding::Snorm8, 10)), zeros);
+  EXPECT_EQ(encodingError(zeros, encode(zeros, Encoding::Snorm8, 10)), 0.0);
+}
+
+TEST(EncodedRtt, ComesBackInSinglePrecision) {
+  meso::RadianceTransferTexture rtt;
+  rtt.name = "weave";
+  rtt.width = 3, rtt.height = 2, rtt.views = 2, rtt.bands = 2;
+  rtt.size = Vec2(0.3f, 0.2f);
+  rtt.depth = 0.05f;
+  for (std::size_t i = 0; i < 4 * rtt.planeSize(); ++i) rtt.values.push_back(0.1f * float(i % 17));
+  const meso::RadianceTransferTexture back = decode(encode(rtt, Encoding::Float32));
+  EXPECT_EQ(back.name, rtt.name);
+  EXPECT_EQ(back.values, rtt.values);
+  EXPECT_EQ(back.size, rtt.size);
+  EXPECT_EQ(back.depth, rtt.depth);
+  EXPECT_EQ(back.views, 2);
+  EXPECT_EQ(encode(rtt, Encoding::Snorm8).values.scales.size(), 4u);
+  EXPECT_LT(encodingError(rtt.values, encode(rtt, Encoding::Snorm8).values), 4e-3);
+  EXPECT_LT(encodingError(rtt.values, encode(rtt, Encoding::Float16).values), 4e-4);
+}
+
+TEST(EncodedField, KeepsLocalTransfer) {
+  transport::TransferField field = exampleField();
+  transport::LocalTransfer& local = field.meshes[1].local.emplace();
+  local.tangents = {Vec3(1, 0, 0), Vec3(0, 0, 1)};
+  local.bands = 2;
+  local.channels = 3;
+  for (int i = 0; i < 2 * 16; ++i) local.shadowed.push_back(float(i));
+  for (int i = 0; i < 2 * 3 * 16; ++i) local.interreflected.push_back(-float(i));
+  const EncodedField encoded = encode(field, Encoding::Float32);
+  EXPECT_FALSE(encoded.meshes[0].biScale);
+  ASSERT_TRUE(encoded.meshes[1].biScale);
+  const transport::TransferField back = decode(encoded);
+  ASSERT_TRUE(back.meshes[1].local);
+  EXPECT_EQ(back.meshes[1].local->tangents, local.tangents);
+  EXPECT_EQ(back.meshes[1].local->bands, 2);
+  EXPECT_EQ(back.meshes[1].local->channels, 3);
+  EXPECT_EQ(back.meshes[1].local->shadowed, local.shadowed);
+  EXPECT_EQ(back.meshes[1].local->interreflected, local.interreflected);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ enum class Albedo { Included, BaseColor };
 /// matrices that yield the light which arrives at the structure (Sloan 2003 §3, §4.1). Rows are in
 /// the frame (tangent, normal × tangent, normal), columns in the world's.
 struct LocalTransfer {
+  std::vector<Vec3> tangents;         ///< of the receivers: world space, unit
   int bands = 0;                      ///< of rows and columns
   std::vector<float> shadowed;        ///< [receiver][n²][n²], or empty: nothing hides light
   int channels = 0;                   ///< of `interreflected`: 1 or 3
