@@ -74,8 +74,8 @@ TEST_F(AssetHostile, OrdinaryGltfIsSentToTheBake) {
 }
 
 TEST_F(AssetHostile, Versions) {
-  expectRefused("version: 2.0 is newer than 1.0", [](json& d) { root(d)["version"] = "2.0"; });
-  expectRefused("version: 0.9 is older than 1.0", [](json& d) { root(d)["version"] = "0.9"; });
+  expectRefused("version: 2.0 is newer than 1.1", [](json& d) { root(d)["version"] = "2.0"; });
+  expectRefused("version: 0.9 is older than 1.1", [](json& d) { root(d)["version"] = "0.9"; });
   for (const char* odd : {"", "1", "1.", ".5", "1.x", "one", "1.0.0", "-1.0"})
     expectRefused("is not of the form", [&](json& d) { root(d)["version"] = odd; });
   expectRefused("version: is not a string", [](json& d) { root(d)["version"] = 1; });

@@ -68,6 +68,10 @@ Status check(const BakeOptions& options) {
     return outside("directions", options.directions, 16, 65536);
   if (options.bounces < 0 || options.bounces > 1000)
     return outside("bounces", options.bounces, 0, 1000);
+  if (!options.biScale.empty() && options.glossyBands != 0 && options.glossyBands != options.bands)
+    return report::badUsage("glossy bands are " + std::to_string(options.glossyBands) +
+                            " and bands " + std::to_string(options.bands) +
+                            ": bi-scale matrices have as many rows as columns");
   if (!(options.energyThreshold >= 0.0 && options.energyThreshold < 1.0))
     return outside("energy threshold", options.energyThreshold, 0.0, 1.0);
   return Status::ok();
@@ -192,7 +196,7 @@ class Bake {
         runner_(progress, simulation.options.threads),
         order_(spatialOrder(simulation.receivers)),
         total_(s_.receivers.size() * s_.rowStride),
-        totalMatrices_(s_.glossyCount * s_.matrixStride()) {}
+        totalMatrices_(s_.matrixCount * s_.matrixStride()) {}
 
   Status run(Findings& findings) {
     const bool bouncing = s_.options.kind == TransferKind::Interreflected && s_.options.bounces > 0;
@@ -223,11 +227,13 @@ class Bake {
     passEnergy_.push_back(sum / std::max<double>(1.0, static_cast<double>(s_.receivers.size())));
   }
   static void tell(const HitCounts& counts, Findings& findings);
+  LocalTransfer localOf(const Receivers::PerMesh& place) const;
 
   const Simulation& s_;
   PassRunner runner_;
   std::vector<std::uint32_t> order_;          ///< neighbours after each other: caches stay warm
   std::vector<float> total_, totalMatrices_;  ///< sums over passes of E and M
+  std::vector<float> shadowedMatrices_;       ///< pass 0 alone, if it is to be kept
   std::vector<float> exitRows_, matrices_;    ///< the pass before: ρ/π E, M
   std::vector<float> nextRows_, nextMatrices_;
   std::vector<KeptHits> kept_;
@@ -257,8 +263,8 @@ double Bake::store(std::uint32_t receiver, const Gathered& gathered, float* exit
       if (exitRows) exitRows[receiver * s_.rowStride + j] = static_cast<float>(exit);
     }
   }
-  if (s_.isGlossy(receiver)) {
-    const std::size_t first = s_.glossyIndex[receiver] * s_.matrixStride();
+  if (s_.hasMatrix(receiver)) {
+    const std::size_t first = s_.matrixIndex[receiver] * s_.matrixStride();
     for (std::size_t k = 0; k < s_.matrixStride(); ++k) {
       const float value = gathered.matrix[k];
       energy += double(value) * value;
@@ -316,6 +322,7 @@ bool Bake::runDirect(bool bouncing) {
         }
       });
   sumEnergy(energy);
+  if (bouncing && s_.options.keepShadowed) shadowedMatrices_ = totalMatrices_;
   return finished;
 }
 
@@ -366,6 +373,23 @@ void Bake::tell(const HitCounts& counts, Findings& findings) {
                         counts.inside});
 }
 
+LocalTransfer Bake::localOf(const Receivers::PerMesh& place) const {
+  LocalTransfer local;
+  local.tangents = place.local->tangents;
+  local.bands = s_.inBands;
+  if (s_.options.kind == TransferKind::Unshadowed || place.count == 0) return local;
+  const std::size_t first = s_.matrixIndex[place.first] * s_.matrixStride();
+  if (s_.options.kind == TransferKind::Shadowed) {
+    local.shadowed = inTangentFrames(s_, place, totalMatrices_.data() + first, 1);
+    return local;
+  }
+  local.channels = s_.channels;
+  local.interreflected = inTangentFrames(s_, place, totalMatrices_.data() + first, local.channels);
+  if (s_.options.keepShadowed)
+    local.shadowed = inTangentFrames(s_, place, shadowedMatrices_.data() + first, 1);
+  return local;
+}
+
 TransferField Bake::finish() const {
   const BakeOptions& options = s_.options;
   TransferField field;
@@ -394,6 +418,10 @@ TransferField Bake::finish() const {
     for (const std::uint32_t r : source) {
       out.positions.push_back(s_.receivers.positions[r]);
       out.normals.push_back(s_.receivers.normals[r]);
+    }
+    if (place.local) {
+      out.local = localOf(place);
+      continue;
     }
     out.albedo = material.baseColorTexture >= 0 ? Albedo::BaseColor : Albedo::Included;
     const auto reflectance = [&](std::uint32_t r) -> Rgb {
@@ -424,7 +452,7 @@ TransferField Bake::finish() const {
       out.lobeExponent = material.lobeExponent;
       out.matrices.reserve(source.size() * s_.channels * s_.outCount * s_.inCount);
       for (const std::uint32_t r : source) {
-        const float* matrix = totalMatrices_.data() + s_.glossyIndex[r] * s_.matrixStride();
+        const float* matrix = totalMatrices_.data() + s_.matrixIndex[r] * s_.matrixStride();
         for (int c = 0; c < s_.channels; ++c)
           for (std::size_t i = 0; i < s_.outCount; ++i) {
             const float* row = matrix + i * s_.rowStride + c * s_.inCount;
@@ -455,14 +483,17 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
       inTable(directions_, inBands),
       cosine(sh::clampedCosine(inBands)),
       hemisphere(sh::hemisphere(inBands + outBands - 1)) {
-  glossyIndex.assign(receivers.size(), kNoMatrix);
+  matrixIndex.assign(receivers.size(), kNoMatrix);
   diffuseReceiver_.assign(receivers.size(), 0);
+  lobeReceiver_.assign(receivers.size(), 0);
   for (const Receivers::PerMesh& mesh : receivers.meshes)
     for (std::uint32_t r = mesh.first; r < mesh.first + mesh.count; ++r) {
       diffuseReceiver_[r] = mesh.isDiffuse;
-      if (mesh.isGlossy) glossyIndex[r] = static_cast<std::uint32_t>(glossyCount++);
+      lobeReceiver_[r] = mesh.isGlossy;
+      const bool local = mesh.local && options.kind != TransferKind::Unshadowed;
+      if (mesh.isGlossy || local) matrixIndex[r] = static_cast<std::uint32_t>(matrixCount++);
     }
-  if (glossyCount == 0) {
+  if (matrixCount == 0) {
     outCount = 0;  // no matrices to hold
     return;
   }
@@ -474,7 +505,7 @@ Result<TransferField> bake(const scene::Scene& scene, const trace::RayScene& ray
                            const BakeOptions& options, const Progress& progress,
                            Findings& findings) {
   if (Status sane = check(options); !sane) return sane.error();
-  Result<Receivers> receivers = placeReceivers(scene, options.texels, rays.offset());
+  Result<Receivers> receivers = placeReceivers(scene, options, rays.offset());
   if (!receivers) return receivers.error();
   const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
   const Simulation simulation(scene, rays, *receivers, directions, options,

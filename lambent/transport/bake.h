@@ -16,6 +16,13 @@ struct TexelGrid {
   int width = 256, height = 256;
 };
 
+/// A mesh that carries meso-structure: its receivers are its vertices, and what they record is the
+/// light that arrives there, as matrices in their tangent frames (MeshTransfer::local).
+struct LocalFrames {
+  std::uint32_t mesh = 0;
+  std::vector<Vec3> tangents;  ///< one per vertex: world space, unit, at right angles to the normal
+};
+
 struct BakeOptions {
   TransferKind kind = TransferKind::Interreflected;
   int bands = 5;          ///< of the light, 1 … 10
@@ -28,7 +35,11 @@ struct BakeOptions {
   int threads = 0;         ///< 0: as many as the machine has. No effect on the result's bytes
   /// Bytes for remembered hits; what does not fit is cast again in every bounce.
   std::size_t hitMemory = std::size_t(3) << 30;
-  std::vector<TexelGrid> texels;  ///< meshes not named here are baked at their vertices
+  std::vector<TexelGrid> texels;     ///< meshes not named here are baked at their vertices
+  std::vector<LocalFrames> biScale;  ///< meshes whose transfer is local
+  /// Keep the shadowed matrices of bi-scale meshes beside the interreflected ones, to switch
+  /// between them.
+  bool keepShadowed = false;
 };
 
 /// `findings` gathers what was odd: receivers inside a mesh, rays that met back faces.

@@ -37,7 +37,7 @@ void addLobe(const Simulation& simulation, std::uint32_t q, const Vec3& arrival,
   scratch.ids.resize(simulation.outCount);
   for (std::uint32_t i = 0; i < simulation.outCount; ++i) scratch.ids[i] = i;
   scratch.y.assign(simulation.rowStride, 0.0);
-  addRows({previous.matrices + simulation.glossyIndex[q] * simulation.matrixStride(),
+  addRows({previous.matrices + simulation.matrixIndex[q] * simulation.matrixStride(),
            simulation.rowStride},
           scratch.ids, scratch.outFloat, scratch.y.data());
   for (int c = 0; c < simulation.channels; ++c) {
@@ -66,7 +66,7 @@ void addExit(const Simulation& simulation, std::uint32_t q, const Vec3& arrival,
       for (std::size_t j = 0; j < simulation.inCount; ++j)
         exit[c * simulation.inCount + j] += double(weight[c]) * row[c * simulation.inCount + j];
   }
-  if (simulation.isGlossy(q)) {
+  if (simulation.sendsLobe(q)) {
     prepareLobe(simulation, simulation.receivers.exponents[q], scratch);
     addLobe(simulation, q, arrival, weight, previous, scratch, exit);
   }
@@ -78,17 +78,17 @@ void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
                       Scratch& scratch) {
   const Vec3& normal = simulation.receivers.normals[receiver];
   const auto weight = static_cast<float>(simulation.directions.weight());
-  const bool allDiffuse = simulation.glossyCount == 0;
+  const bool noLobes = !simulation.outTable;
   scratch.weights.resize(hits.receiver.size());
   for (std::size_t h = 0; h < hits.receiver.size(); ++h)
     scratch.weights[h] = weight * normal.dot(simulation.directions[hits.direction[h]]);
   // Rows of receivers that are not diffuse are zero: they need no exception here.
   addRows({previous.exitRows, simulation.rowStride}, hits.receiver, scratch.weights,
           gathered.incident.data());
-  if (!allDiffuse)
+  if (!noLobes)
     for (std::size_t h = 0; h < hits.receiver.size(); ++h) {
       const std::uint32_t q = hits.receiver[h];
-      if (!simulation.isGlossy(q)) continue;
+      if (!simulation.sendsLobe(q)) continue;
       const float w = weight * normal.dot(simulation.directions[hits.direction[h]]);
       prepareLobe(simulation, simulation.receivers.exponents[q], scratch);
       addLobe(simulation, q, simulation.directions[hits.direction[h]], Rgb::Constant(w), previous,
@@ -150,7 +150,7 @@ void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
 void gatherBounce(const Simulation& simulation, std::uint32_t receiver, const ReceiverHits& hits,
                   const PreviousPass& previous, Gathered& gathered, Scratch& scratch) {
   std::fill(gathered.incident.begin(), gathered.incident.end(), 0.0);
-  if (simulation.isGlossy(receiver)) {
+  if (simulation.hasMatrix(receiver)) {
     std::fill(gathered.matrix.begin(), gathered.matrix.end(), 0.0f);
     gatherIntoMatrix(simulation, receiver, hits, previous, gathered, scratch);
   } else {

@@ -13,8 +13,14 @@
 // a closed room is exactly black. (2) The glossy matrix is not summed entry by entry: y_i y_j lies
 // within n+N−1 bands, so visibility is projected once onto those, and the matrix is expanded from
 // it by the triple-product tensor (eq. 7): the same sum, entry for entry, for a fraction of the
-// work.
+// work. (3) A bi-scale receiver's matrix goes on below the horizon. What it yields is multiplied by
+// a response B that is zero there, but B is kept in n bands and rings: with visibility cut off at
+// the horizon, B · (M L) loses what B's ringing takes from the other side, even where nothing is in
+// the way. Below, visibility is set to the receiver's accessibility a (the share of the
+// cosine-weighted hemisphere that is open): where a = 1 the matrix is the identity and B · L exact,
+// where a = 0 no light leaks in.
 #include <algorithm>
+#include <cmath>
 
 #include "lambent/sh/basis.h"
 #include "lambent/transport/simulation.h"
@@ -64,7 +70,20 @@ void addDiffuse(const Simulation& simulation, std::uint32_t receiver, Gathered& 
   }
 }
 
-void addGlossy(const Simulation& simulation, std::uint32_t receiver, Gathered& gathered,
+/// Adds a · (1 − H_N) to visibility in scratch.wide; the receiver's incident vector is known.
+void addBelowHorizon(const Simulation& simulation, std::uint32_t receiver, const Gathered& gathered,
+                     Scratch& scratch) {
+  const double y0 = 0.5 / std::sqrt(kPi);
+  const double accessibility = std::clamp(gathered.incident[0] / (kPi * y0), 0.0, 1.0);
+  sh::turnTo(simulation.hemisphere,
+             Vec3d(simulation.receivers.normals[receiver].cast<double>().normalized()),
+             std::span<double>(scratch.y));
+  scratch.wide[0] += accessibility / y0;  // the projection of 1
+  for (std::size_t k = 0; k < simulation.hemisphere.size() * simulation.hemisphere.size(); ++k)
+    scratch.wide[k] -= accessibility * scratch.y[k];
+}
+
+void addMatrix(const Simulation& simulation, std::uint32_t receiver, Gathered& gathered,
                Scratch& scratch) {
   const Half half = shorterHalf(scratch.cast);
   const auto weight = static_cast<float>(simulation.directions.weight());
@@ -78,6 +97,7 @@ void addGlossy(const Simulation& simulation, std::uint32_t receiver, Gathered& g
     for (std::size_t k = 0; k < simulation.hemisphere.size() * simulation.hemisphere.size(); ++k)
       scratch.wide[k] = scratch.y[k] - scratch.wide[k];
   }
+  if (simulation.isLocal(receiver)) addBelowHorizon(simulation, receiver, gathered, scratch);
   const sh::TripleProductTensor& tensor = sh::tripleProductTensor(
       simulation.outBands, simulation.inBands, simulation.outBands + simulation.inBands - 1);
   float* m = gathered.matrix.data();
@@ -125,7 +145,7 @@ void gatherUnshadowed(const Simulation& simulation, std::uint32_t receiver, Gath
     for (int c = 1; c < simulation.channels; ++c)
       std::copy_n(e, simulation.inCount, e + c * simulation.inCount);
   }
-  if (simulation.isGlossy(receiver))
+  if (simulation.hasMatrix(receiver))
     for (std::size_t i = 0; i < std::min(simulation.inCount, simulation.outCount); ++i)
       for (int c = 0; c < simulation.channels; ++c)
         gathered.matrix[i * simulation.rowStride + c * simulation.inCount + i] = 1.0f;
@@ -135,7 +155,7 @@ void gatherDirect(const Simulation& simulation, std::uint32_t receiver, Gathered
                   Scratch& scratch) {
   clear(gathered, scratch, simulation);
   if (simulation.isDiffuse(receiver)) addDiffuse(simulation, receiver, gathered, scratch);
-  if (simulation.isGlossy(receiver)) addGlossy(simulation, receiver, gathered, scratch);
+  if (simulation.hasMatrix(receiver)) addMatrix(simulation, receiver, gathered, scratch);
 }
 
 }  // namespace lambent::transport

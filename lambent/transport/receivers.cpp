@@ -128,14 +128,37 @@ std::vector<Vec3> inwardDirections(const scene::Mesh& mesh) {
 
 }  // namespace
 
-bool Receivers::anyGlossy() const {
-  return std::any_of(meshes.begin(), meshes.end(), [](const PerMesh& m) { return m.isGlossy; });
+namespace {
+
+Status checkFrames(const scene::Scene& scene, const BakeOptions& options) {
+  for (const LocalFrames& frames : options.biScale) {
+    if (frames.mesh >= scene.meshes.size())
+      return report::badUsage("tangent frames are given for mesh " + std::to_string(frames.mesh) +
+                              " of " + std::to_string(scene.meshes.size()));
+    const scene::Mesh& mesh = scene.meshes[frames.mesh];
+    if (frames.tangents.size() != mesh.positions.size())
+      return report::badUsage("mesh " + std::to_string(frames.mesh) + ": " +
+                              std::to_string(frames.tangents.size()) + " tangents for " +
+                              std::to_string(mesh.positions.size()) + " vertices");
+    if (scene.materials[mesh.material].isMirror())
+      return report::badUsage("mesh " + std::to_string(frames.mesh) +
+                              " is a mirror: meso-structure can not be spread over it");
+    for (const TexelGrid& grid : options.texels)
+      if (grid.mesh == frames.mesh)
+        return report::badUsage("mesh " + std::to_string(frames.mesh) +
+                                " carries meso-structure: its receivers are vertices, not texels");
+  }
+  return Status::ok();
 }
 
-Result<Receivers> placeReceivers(const scene::Scene& scene, std::span<const TexelGrid> texels,
+}  // namespace
+
+Result<Receivers> placeReceivers(const scene::Scene& scene, const BakeOptions& options,
                                  float offset) {
+  const std::span<const TexelGrid> texels = options.texels;
   Receivers receivers;
   receivers.meshes.resize(scene.meshes.size());
+  if (Status sound = checkFrames(scene, options); !sound) return sound.error();
   for (const TexelGrid& asked : texels) {
     if (asked.mesh >= scene.meshes.size())
       return report::badUsage("a texel grid is asked for mesh " + std::to_string(asked.mesh) +
@@ -151,6 +174,8 @@ Result<Receivers> placeReceivers(const scene::Scene& scene, std::span<const Texe
     if (material.isMirror()) continue;
     place.isGlossy = material.isGlossy();
     place.isDiffuse = material.isDiffuse() || !place.isGlossy;  // black is a diffuse material too
+    for (const LocalFrames& frames : options.biScale)
+      if (frames.mesh == m) place.local = &frames, place.isGlossy = false, place.isDiffuse = true;
     const auto asked = std::find_if(texels.begin(), texels.end(),
                                     [&](const TexelGrid& grid) { return grid.mesh == m; });
     if (asked != texels.end()) {

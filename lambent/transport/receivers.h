@@ -27,17 +27,20 @@ struct Receivers {
     std::vector<std::uint32_t> receiverOfTexel;
     std::vector<std::uint8_t> covered;  ///< Texels: whether the texel's centre lies on the surface
     bool isDiffuse = false, isGlossy = false;
+    /// Bi-scale: a matrix records what arrives. What it sends on to others is diffuse, with the
+    /// material's albedo: at the macro-scale the meso-structure is a matt surface.
+    const LocalFrames* local = nullptr;
   };
   std::vector<PerMesh> meshes;
 
   std::size_t size() const { return positions.size(); }
-  bool anyGlossy() const;
 };
 
 /// BadInput where texels are asked for and the UVs are missing, outside the unit square, or
 /// overlap.
-/// `offset`: how far origins are lifted off, trace::RayScene::offset().
-Result<Receivers> placeReceivers(const scene::Scene& scene, std::span<const TexelGrid> texels,
+/// `offset`: how far origins are lifted off, trace::RayScene::offset(). The options' frames must
+/// outlive the receivers.
+Result<Receivers> placeReceivers(const scene::Scene& scene, const BakeOptions& options,
                                  float offset);
 
 /// All receivers along a Morton curve through their bounding box. Rays from neighbours walk the

@@ -9,6 +9,12 @@
 namespace lambent::transport {
 namespace {
 
+BakeOptions onGrid(const TexelGrid& grid) {
+  BakeOptions options;
+  options.texels = {grid};
+  return options;
+}
+
 TEST(Receivers, VerticesStandWhereTheMeshStands) {
   const scene::Scene scene = scene::sceneOf(scene::icosphere(1.0f, 1));
   const auto receivers = placeReceivers(scene, {}, 0.0f);
@@ -35,7 +41,7 @@ TEST(Receivers, MirrorsRecordNothingAndBlackIsADiffuseMaterial) {
 TEST(Receivers, TexelsOfAPlaneStandAtTexelCentres) {
   const scene::Scene scene = scene::sceneOf(scene::gridPlane(2.0f, 4.0f, 3, 5));
   const TexelGrid grid{0, 8, 16};
-  const auto receivers = placeReceivers(scene, {&grid, 1}, 0.0f);
+  const auto receivers = placeReceivers(scene, onGrid(grid), 0.0f);
   ASSERT_TRUE(receivers) << receivers.error().message;
   ASSERT_EQ(receivers->size(), 128u);
   for (int y = 0; y < 16; ++y)
@@ -51,7 +57,7 @@ TEST(Receivers, EmptyTexelsListenToTheNearestFullOne) {
   scene::Scene scene = scene::sceneOf(scene::gridPlane(1.0f, 1.0f, 1, 1));
   for (Vec2& uv : scene.meshes[0].uvs) uv *= 0.5f;
   const TexelGrid grid{0, 16, 16};
-  const auto receivers = placeReceivers(scene, {&grid, 1}, 0.0f);
+  const auto receivers = placeReceivers(scene, onGrid(grid), 0.0f);
   ASSERT_TRUE(receivers);
   EXPECT_EQ(receivers->size(), 64u);
   const auto& place = receivers->meshes[0];
@@ -82,7 +88,7 @@ TEST(Receivers, OverlappingUvsAreRefused) {
   scene::Scene scene = scene::sceneOf(scene::gridPlane(1.0f, 1.0f, 2, 2));
   for (Vec2& uv : scene.meshes[0].uvs) uv = Vec2(std::abs(uv.x() - 0.5f), uv.y());
   const TexelGrid grid{0, 16, 16};
-  const auto receivers = placeReceivers(scene, {&grid, 1}, 0.0f);
+  const auto receivers = placeReceivers(scene, onGrid(grid), 0.0f);
   ASSERT_FALSE(receivers);
   EXPECT_EQ(receivers.error().kind, ErrorKind::BadInput);
 }
@@ -105,7 +111,7 @@ TEST(Receivers, DrawingCornersInterpolates) {
   const scene::Scene scene = scene::sceneOf(scene::gridPlane(1.0f, 1.0f, 1, 1));
   const auto vertices = placeReceivers(scene, {}, 0.0f);
   const TexelGrid grid{0, 4, 4};
-  const auto texels = placeReceivers(scene, {&grid, 1}, 0.0f);
+  const auto texels = placeReceivers(scene, onGrid(grid), 0.0f);
   ASSERT_TRUE(vertices && texels);
   // Positions are linear over the triangle: the mean of the drawn receivers' positions must be the
   // point itself (for texels: anywhere between the outer texel centres).

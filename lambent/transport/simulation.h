@@ -3,7 +3,9 @@
 // Accumulators. Let n = bands of the light, N = bands of glossy rows, c = channels.
 //  - E, "incident vector" of a diffuse receiver: [c][n²], the transfer vector without ρ/π;
 //    exit radiance is ρ/π E · L.
-//  - M, matrix of a glossy receiver: N² rows of [c][n²] each, so that one row is shaped like an E.
+//  - M, matrix of a receiver that has one (a glossy surface, or one that carries meso-structure):
+//  N²
+//    rows of [c][n²] each, so that one row is shaped like an E.
 // Both row lengths are padded to rowStride floats.
 #pragma once
 
@@ -32,13 +34,13 @@ struct Simulation {
   std::size_t rowStride = 32;
 
   DirectionTable inTable;                     ///< y of n bands
-  std::unique_ptr<DirectionTable> outTable;   ///< y of N bands, if anything is glossy
-  std::unique_ptr<DirectionTable> wideTable;  ///< y of n+N−1 bands, if anything is glossy
+  std::unique_ptr<DirectionTable> outTable;   ///< y of N bands, if anything has a matrix
+  std::unique_ptr<DirectionTable> wideTable;  ///< y of n+N−1 bands, if anything has a matrix
   sh::ZonalMoments cosine;                    ///< n bands
   sh::ZonalMoments hemisphere;                ///< n+N−1 bands
 
-  std::vector<std::uint32_t> glossyIndex;  ///< receiver → its matrix, or kNoMatrix
-  std::size_t glossyCount = 0;
+  std::vector<std::uint32_t> matrixIndex;  ///< receiver → its matrix, or kNoMatrix
+  std::size_t matrixCount = 0;
 
   static constexpr std::uint32_t kNoMatrix = 0xffffffffu;
 
@@ -46,11 +48,15 @@ struct Simulation {
              const trace::DirectionSet& directions, const BakeOptions& options, int channels);
 
   std::size_t matrixStride() const { return outCount * rowStride; }
-  bool isGlossy(std::uint32_t receiver) const { return glossyIndex[receiver] != kNoMatrix; }
+  bool hasMatrix(std::uint32_t receiver) const { return matrixIndex[receiver] != kNoMatrix; }
+  /// Whether it sends light on by a lobe: glossy surfaces alone, whose matrices are before the
+  /// lobe.
+  bool sendsLobe(std::uint32_t receiver) const { return lobeReceiver_[receiver] != 0; }
+  bool isLocal(std::uint32_t receiver) const { return hasMatrix(receiver) && !sendsLobe(receiver); }
   bool isDiffuse(std::uint32_t receiver) const { return diffuseReceiver_[receiver] != 0; }
 
  private:
-  std::vector<std::uint8_t> diffuseReceiver_;
+  std::vector<std::uint8_t> diffuseReceiver_, lobeReceiver_;
 };
 
 /// What one receiver gathers in one pass. `incident` is E; `matrix` is M. Sized by the simulation.
@@ -80,6 +86,12 @@ void gatherUnshadowed(const Simulation& simulation, std::uint32_t receiver, Gath
 /// Pass 0 from scratch.cast (and scratch.escapes, where there are mirrors).
 void gatherDirect(const Simulation& simulation, std::uint32_t receiver, Gathered& gathered,
                   Scratch& scratch);
+
+/// The matrices of a bi-scale mesh with their rows turned into the receivers' tangent frames:
+/// [receiver][channel][N²][n²] for the first `channels` channels of `matrices`, which holds one
+/// matrix of matrixStride() floats for each of the mesh's receivers.
+std::vector<float> inTangentFrames(const Simulation& simulation, const Receivers::PerMesh& place,
+                                   const float* matrices, int channels);
 
 /// The light that pass b−1 left on all receivers: exit rows ρ/π E (rowStride each), matrices M.
 struct PreviousPass {
