@@ -35,10 +35,18 @@ std::uint32_t mortonOnOctahedron(const Vec3& d) {
 
 }  // namespace
 
-DirectionSet::DirectionSet(int count, const Mat3& rotation) {
+static std::vector<Vec3> turnedLattice(int count, const Mat3& rotation) {
   assert(count >= 1);
-  directions_ = math::sphericalFibonacci(count);
-  for (Vec3& d : directions_) d = (rotation * d).normalized();
+  std::vector<Vec3> directions = math::sphericalFibonacci(count);
+  for (Vec3& d : directions) d = (rotation * d).normalized();
+  return directions;
+}
+
+DirectionSet::DirectionSet(int count, const Mat3& rotation)
+    : DirectionSet(turnedLattice(count, rotation)) {}
+
+DirectionSet::DirectionSet(std::vector<Vec3> directions) : directions_(std::move(directions)) {
+  assert(!directions_.empty());
   std::stable_sort(directions_.begin(), directions_.end(), [](const Vec3& a, const Vec3& b) {
     return mortonOnOctahedron(a) < mortonOnOctahedron(b);
   });

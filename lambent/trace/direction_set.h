@@ -20,6 +20,9 @@ class DirectionSet {
 
   /// count ≥ 1; it need not be a multiple of 16.
   DirectionSet(int count, const Mat3& rotation);
+  /// Unit directions that the caller chose, sorted in the same way: what belongs to a direction is
+  /// found by its value, and weight() means nothing unless they are evenly spread. Not empty.
+  explicit DirectionSet(std::vector<Vec3> directions);
 
   std::size_t size() const { return directions_.size(); }
   double weight() const { return 4.0 * kPi / static_cast<double>(size()); }  ///< steradians each

@@ -1,0 +1,156 @@
+// Height fields by a two-dimensional random process that repeats itself: stucco, plaster.
+//
+// This work is based on:
+// - sloan2003biscale: §4.2, "the stucco wall sample used a 2D random process".
+// - perlin1985image: band-limited noise from random gradients at a lattice, here a lattice that
+//   wraps around.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "lambent/math/random.h"
+#include "lambent/meso/generators.h"
+
+namespace lambent::meso {
+
+namespace {
+
+double fade(double t) {
+  return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+}
+
+/// Gradient noise over the unit square with `cells` lattice cells along each axis; about −0.7 …
+/// 0.7, period 1.
+double noise(double x, double y, int cells, std::uint64_t seed) {
+  const double u = x * cells, v = y * cells;
+  const auto i = static_cast<long>(std::floor(u)), j = static_cast<long>(std::floor(v));
+  const double fu = u - double(i), fv = v - double(j);
+  const auto gradient = [&](long di, long dj) {
+    const long a = ((i + di) % cells + cells) % cells, b = ((j + dj) % cells + cells) % cells;
+    math::Random random(seed, static_cast<std::uint64_t>(b * cells + a),
+                        static_cast<std::uint64_t>(cells));
+    const double angle = 2.0 * kPi * random.uniformDouble();
+    return std::cos(angle) * (fu - double(di)) + std::sin(angle) * (fv - double(dj));
+  };
+  const double s = fade(fu), t = fade(fv);
+  const double low = gradient(0, 0) + s * (gradient(1, 0) - gradient(0, 0));
+  const double high = gradient(0, 1) + s * (gradient(1, 1) - gradient(0, 1));
+  return low + t * (high - low);
+}
+
+double octaves(double x, double y, int cells, int count, double gain, std::uint64_t seed) {
+  double sum = 0.0, amplitude = 1.0;
+  for (int k = 0; k < count; ++k, cells *= 2, amplitude *= gain)
+    sum += amplitude * noise(x, y, cells, seed + static_cast<std::uint64_t>(k));
+  return sum;
+}
+
+double fromWhole(double x) {
+  return x - std::round(x);
+}
+
+double smooth(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// Heights scaled to lie between 0 and `depth`, as a patch of one colour.
+Patch finished(const char* name, std::vector<double> heights, int resolution, const Vec2& size,
+               float depth, const Rgb& color) {
+  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+  const double low = *lowest, span = std::max(*highest - low, 1e-12);
+  HeightField field;
+  field.width = field.height = resolution;
+  for (const double h : heights)
+    field.heights.push_back(
+        static_cast<float>((h - low) / span * double(depth) * double(size.x())));
+  scene::Material material;
+  material.name = name;
+  material.diffuse = color;
+  return patchOf(field, size, material, name);
+}
+
+}  // namespace
+
+Patch stucco(const StuccoOptions& options) {
+  assert(options.resolution >= 2 && options.dabs >= 0);
+  const int n = options.resolution;
+  std::vector<double> heights(std::size_t(n) * n);
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
+      heights[std::size_t(y) * n + x] =
+          0.10 * octaves((x + 0.5) / n, (y + 0.5) / n, 4, 4, 0.55, options.seed);
+  for (int dab = 0; dab < options.dabs; ++dab) {
+    math::Random random(options.seed, 0x7374756363ull, static_cast<std::uint64_t>(dab));
+    const double cx = random.uniformDouble(), cy = random.uniformDouble();
+    const double radius = options.radius * (0.35 + 0.65 * random.uniformDouble());
+    const double turn = kPi * random.uniformDouble(), squeeze = 0.6 + 0.4 * random.uniformDouble();
+    const double height = radius / options.radius * (0.5 + 0.5 * random.uniformDouble());
+    const auto grain = random.bits();
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const double px = (x + 0.5) / n, py = (y + 0.5) / n;
+        const double dx = fromWhole(px - cx), dy = fromWhole(py - cy);
+        if (std::max(std::abs(dx), std::abs(dy)) > 1.8 * radius) continue;
+        const double u = (std::cos(turn) * dx + std::sin(turn) * dy) / radius;
+        const double v = (std::cos(turn) * dy - std::sin(turn) * dx) / (radius * squeeze);
+        const double ragged = 0.55 * octaves(px, py, 12, 2, 0.5, grain);
+        const double r = std::hypot(u, v) * (1.0 + ragged);
+        // Dabs have a flat back and a soft edge, and lie on what is there.
+        const double shape = 1.0 - smooth(0.25, 1.0, r);
+        double& h = heights[std::size_t(y) * n + x];
+        h = std::max(h, h * (1.0 - shape) + shape * (0.35 * h + 0.45 * height + 0.10));
+      }
+  }
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
+      heights[std::size_t(y) * n + x] +=
+          0.035 * octaves((x + 0.5) / n, (y + 0.5) / n, 24, 2, 0.6, options.seed + 100);
+  return finished("stucco", std::move(heights), n, options.size, options.depth, options.color);
+}
+
+Patch plaster(const PlasterOptions& options) {
+  assert(options.resolution >= 2 && options.strokes >= 0);
+  const int n = options.resolution;
+  std::vector<double> heights(std::size_t(n) * n);
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
+      heights[std::size_t(y) * n + x] =
+          0.35 * octaves((x + 0.5) / n, (y + 0.5) / n, 3, 3, 0.5, options.seed);
+  for (int stroke = 0; stroke < options.strokes; ++stroke) {
+    math::Random random(options.seed, 0x706c6173ull, static_cast<std::uint64_t>(stroke));
+    const double cx = random.uniformDouble(), cy = random.uniformDouble();
+    const double turn = 0.5 + 0.9 * (random.uniformDouble() - 0.5) +
+                        (random.uniformDouble() < 0.3 ? 0.5 * kPi : 0.0);
+    const double length = 0.16 + 0.16 * random.uniformDouble();
+    const double width = 0.055 + 0.045 * random.uniformDouble();
+    const double bend = 1.6 * (random.uniformDouble() - 0.5);
+    const double level = 0.5 * random.uniformDouble();
+    const auto grain = random.bits();
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const double px = (x + 0.5) / n, py = (y + 0.5) / n;
+        const double dx = fromWhole(px - cx), dy = fromWhole(py - cy);
+        const double along = std::cos(turn) * dx + std::sin(turn) * dy;
+        const double across = std::cos(turn) * dy - std::sin(turn) * dx - bend * along * along;
+        const double ragged = 0.18 * noise(px, py, 14, grain);
+        const double u = std::abs(along) / length + ragged, v = std::abs(across) / width + ragged;
+        if (u > 1.3 || v > 1.3) continue;
+        // The trowel flattens its way, scores it a little, and leaves a ridge at its sides.
+        const double cover = (1.0 - smooth(0.8, 1.0, u)) * (1.0 - smooth(0.85, 1.0, v));
+        const double score =
+            0.03 * std::sin(2.0 * kPi * across / 0.016) * (0.5 + noise(px, py, 6, grain + 1));
+        const double ridge = 0.20 * std::exp(-std::pow((v - 0.97) / 0.09, 2)) *
+                             (1.0 - smooth(0.7, 1.0, u)) * (across > 0.0 ? 1.0 : 0.45);
+        double& h = heights[std::size_t(y) * n + x];
+        h = h * (1.0 - cover) + cover * (0.25 * h + level * 0.75 + score) + ridge;
+      }
+  }
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x)
+      heights[std::size_t(y) * n + x] +=
+          0.018 * octaves((x + 0.5) / n, (y + 0.5) / n, 32, 2, 0.6, options.seed + 100);
+  return finished("plaster", std::move(heights), n, options.size, options.depth, options.color);
+}
+
+}  // namespace lambent::meso

@@ -1,0 +1,139 @@
+// This work is based on:
+// - sloan2003biscale: §4.2, "the weave example consists of interleaved, deformed cylinders".
+#include <cassert>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "lambent/meso/generators.h"
+
+namespace lambent::meso {
+
+namespace {
+
+/// One thread before it is laid along an axis: s runs along it in spacings, `phase` says whether it
+/// begins above (0) or below (1).
+class Thread {
+ public:
+  Thread(const WeaveOptions& options, double spacing, int phase)
+      : options_(options), spacing_(spacing), phase_(phase) {
+    // Whole turns in a period of the weave.
+    turns_ = std::round(options.turns * options.threads) / options.threads;
+  }
+
+  /// A point of the surface in (along, sideways, up), metres. angle 0 is its side, ¼ turn its top.
+  Vec3d point(double s, double angle) const {
+    const double a = kPi * (s + phase_);
+    const double swing = 0.54 * options_.height * spacing_;  // over and under by a little more than
+                                                             // half a thread: they hardly touch
+    const Vec3d centre(s * spacing_, 0.0, swing * std::cos(a));
+    const double slope = -swing * kPi / spacing_ * std::sin(a);
+    const Vec3d up = Vec3d(-slope, 0.0, 1.0).normalized();
+    // Pressed flat and wide at the crossings, rounder between them.
+    const double flat = 0.06 * std::cos(2.0 * a);
+    const double halfWidth = 0.5 * options_.width * spacing_ * (1.0 + flat);
+    const double halfHeight = 0.5 * options_.height * spacing_ * (1.0 - flat);
+    double groove = 1.0;
+    if (options_.plies > 0) {
+      const double twist = options_.plies * (angle + 2.0 * kPi * turns_ * s);
+      // |sin| has the sharp valleys of strands that lie side by side; softened, so that its normals
+      // are no finer than the facets.
+      groove -= options_.plyDepth * (1.0 - std::sqrt(0.06 + std::pow(std::sin(0.5 * twist), 2)));
+    }
+    return centre + groove * (halfWidth * std::cos(angle) * Vec3d::UnitY() +
+                              halfHeight * std::sin(angle) * up);
+  }
+
+  double spacing() const { return spacing_; }
+
+  Vec3d normal(double s, double angle) const {
+    const double h = 1e-5;
+    const Vec3d along = point(s + h, angle) - point(s - h, angle);
+    const Vec3d around = point(s, angle + h) - point(s, angle - h);
+    return around.cross(along).normalized();
+  }
+
+ private:
+  const WeaveOptions& options_;
+  double spacing_, turns_;
+  int phase_;
+};
+
+/// One period of a thread's length, appended. `place` takes (along, sideways, up) to the patch.
+template <class Place>
+void append(scene::Mesh& mesh, const Thread& thread, const WeaveOptions& options,
+            const Place& place, bool mirrored) {
+  const int rows = options.along * options.threads, columns = options.around;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (int row = 0; row <= rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const double s = double(row) / options.along, angle = 2.0 * kPi * column / columns;
+      // The end repeats the beginning to the last bit, a period further on.
+      Vec3d p = thread.point(row == rows ? 0.0 : s, angle);
+      if (row == rows) p.x() += s * thread.spacing();
+      mesh.positions.push_back(place(p, true).template cast<float>());
+      mesh.normals.push_back(
+          place(thread.normal(row == rows ? 0.0 : s, angle), false).template cast<float>());
+    }
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const auto a = first + static_cast<std::uint32_t>(row * columns + column);
+      const auto b = first + static_cast<std::uint32_t>(row * columns + (column + 1) % columns);
+      const std::uint32_t c = a + static_cast<std::uint32_t>(columns);
+      const std::uint32_t d = b + static_cast<std::uint32_t>(columns);
+      if (mirrored) {
+        mesh.triangles.push_back({a, c, b});
+        mesh.triangles.push_back({b, c, d});
+      } else {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({b, d, c});
+      }
+    }
+}
+
+scene::Material threadMaterial(const char* name, const Rgb& color, const WeaveOptions& options) {
+  scene::Material material;
+  material.name = name;
+  material.diffuse = color;
+  material.glossy = options.glossy;
+  material.lobeExponent = options.lobeExponent;
+  return material;
+}
+
+}  // namespace
+
+Patch weave(const WeaveOptions& options) {
+  assert(options.threads >= 2 && options.threads % 2 == 0);
+  const double across[2] = {double(options.size.x()) / options.threads,
+                            double(options.size.y()) / options.threads};
+  Patch patch;
+  patch.name = "weave";
+  patch.size = options.size;
+  patch.backing = options.backing;
+  patch.scene.materials = {threadMaterial("warp", options.warp, options),
+                           threadMaterial("weft", options.weft, options)};
+  patch.scene.meshes.resize(2);
+  for (int kind = 0; kind < 2; ++kind) {
+    scene::Mesh& mesh = patch.scene.meshes[kind];
+    mesh.name = kind == 0 ? "warp" : "weft";
+    mesh.material = kind;
+    // The warp's length lies along y, the weft's along x; either is as thick as the smaller spacing
+    // allows. Crossings lie at whole numbers of s, shifted to the middles of cells.
+    const double spacing = across[kind == 0 ? 1 : 0], sideways = across[kind];
+    for (int t = 0; t < options.threads; ++t) {
+      const Thread thread(options, spacing, (t + kind) % 2);
+      const double offset = (t + 0.5) * sideways, start = 0.5 * spacing;
+      append(
+          mesh, thread, options,
+          [&](const Vec3d& p, bool isPoint) -> Vec3d {
+            const double along = p.x() + (isPoint ? start : 0.0);
+            const double side = p.y() + (isPoint ? offset : 0.0);
+            return kind == 0 ? Vec3d(side, along, p.z()) : Vec3d(along, side, p.z());
+          },
+          /*mirrored=*/kind == 0);
+    }
+  }
+  return patch;
+}
+
+}  // namespace lambent::meso
