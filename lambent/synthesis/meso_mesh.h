@@ -26,7 +26,7 @@ struct MesoMesh {
     std::vector<std::uint32_t> neighbours;  ///< by rising distance
   };
   std::vector<Level> levels;
-  /// Mean distance between neighbours at a level, metres.
+  /// Distance between next neighbours in a hexagonal lattice as dense as a level, metres.
   float spacing(std::size_t level) const;
   std::span<const std::uint32_t> neighbours(std::size_t level, std::uint32_t vertex) const {
     const Level& l = levels[level];
