@@ -22,6 +22,7 @@ struct Atlas {
   /// The input with UVs, and vertices doubled where charts meet. Triangles keep their sequence.
   scene::Mesh mesh;
   std::vector<std::uint32_t> sourceVertex;  ///< of the input, for each vertex
+  /// A triangle without area has the chart of a neighbour whose corner it shares.
   std::vector<std::uint32_t> chartOfTriangle;
   std::uint32_t charts = 0;
   bool ownUvs = false;        ///< the mesh's own UVs were taken
@@ -31,8 +32,25 @@ struct Atlas {
 };
 
 /// Any mesh works: holes, several components, genus above 0, non-manifold edges (cut there). A
-/// finding says why own UVs were not taken.
+/// finding says why own UVs were not taken (own_uvs.h lists them). The first vertices of the
+/// result are those of the input, in its sequence; doubles follow. In an automatic atlas every
+/// triangle of area has the same winding in (u, v) as on the surface, texels are as dense
+/// everywhere, but for stretch, and no texel of a size×size map is touched by two charts.
+/// BadInput if no triangle has area; BadUsage for options out of range, or if a map of that size
+/// has no room for so many charts. The same at any number of threads.
 Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Findings& findings,
                         const Progress& progress);
+
+inline constexpr std::uint32_t kNoChart = 0xffffffffu;
+
+/// For every texel of a size×size map, row 0 at v = 0, the chart whose triangles touch its square
+/// (were it by a corner), or kNoChart. Of several charts, which sound UVs do not have, the first.
+std::vector<std::uint32_t> chartOfTexel(const Atlas& atlas, int size);
+
+struct GutterCount {
+  std::size_t sharedTexels = 0;  ///< touched by two charts or more
+  std::size_t narrowTexels = 0;  ///< of a chart, within two texels of another's
+};
+GutterCount countGutters(const Atlas& atlas, int size);
 
 }  // namespace lambent::synthesis

@@ -1,1 +1,190 @@
+// This work is based on:
+// - sloan2003biscale: §4.3, "Constructing the ID Map": scan conversion, normal shooting among the k
+//   nearest meso-vertices, dilation into gutters.
+// - sander2001texture: normal shooting.
+// Where we deviate: there a texel records its meso-vertex's place of the patch as it is; here the
+// place is moved on by the texel's own offset from that vertex. And candidates whose normals point
+// the other way are passed over: they are the other side of a thin sheet.
 #include "lambent/synthesis/place_ids.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
+#include <nanoflann.hpp>
+
+#include "lambent/scene/texel_map.h"
+
+namespace lambent::synthesis {
+namespace {
+
+struct Points {
+  const std::vector<Vec3>& positions;
+  std::size_t kdtree_get_point_count() const { return positions.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return positions[i][static_cast<Eigen::Index>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>,
+                                                 Points, 3, std::uint32_t>;
+
+/// Buffers of one thread's searches.
+struct Search {
+  std::vector<std::uint32_t> indices;
+  std::vector<float> distances;
+};
+
+/// The meso-vertex for a point P of normal N: of the k nearest, those that face as N does, the one
+/// nearest to the line through P along N. If none faces so, of ever more; in the end the nearest.
+std::uint32_t shoot(const Tree& tree, const MesoMesh& mesh, const Vec3& at, const Vec3& normal,
+                    std::size_t neighbours, Search& search) {
+  const std::size_t count = mesh.positions.size();
+  for (std::size_t k = std::min(neighbours, count);; k = std::min(4 * k, count)) {
+    search.indices.resize(k), search.distances.resize(k);
+    const std::size_t found =
+        tree.knnSearch(at.data(), k, search.indices.data(), search.distances.data());
+    float best = std::numeric_limits<float>::infinity();
+    std::uint32_t chosen = search.indices[0];
+    for (std::size_t i = 0; i < found; ++i) {
+      const std::uint32_t v = search.indices[i];
+      if (!(mesh.normals[v].dot(normal) > 0.0f)) continue;
+      const Vec3 offset = mesh.positions[v] - at;
+      const float distance = (offset - offset.dot(normal) * normal).squaredNorm();
+      if (distance < best || (distance == best && v < chosen)) best = distance, chosen = v;
+    }
+    // Beyond a thousand, what faces the right way is no longer near.
+    if (std::isfinite(best) || k == count || k >= 1024) return chosen;
+  }
+}
+
+/// Charts that hold no texel's centre get the texel in which their first triangle's middle lies,
+/// unless that is another's.
+void giveEveryChartATexel(const Atlas& atlas, scene::TexelMap& map) {
+  std::vector<bool> seen(atlas.charts);
+  for (std::size_t texel = 0; texel < map.size(); ++texel)
+    if (map.covered(texel)) seen[atlas.chartOfTriangle[map.triangle[texel]]] = true;
+  for (std::uint32_t t = 0; t < atlas.mesh.triangles.size(); ++t) {
+    const std::uint32_t chart = atlas.chartOfTriangle[t];
+    if (chart >= seen.size() || seen[chart]) continue;
+    const scene::Triangle& corners = atlas.mesh.triangles[t];
+    const std::vector<Vec2>& uvs = atlas.mesh.uvs;
+    const Vec2 middle = (uvs[corners[0]] + uvs[corners[1]] + uvs[corners[2]]) / 3.0f;
+    const int x = std::clamp(static_cast<int>(middle.x() * map.width), 0, map.width - 1);
+    const int y = std::clamp(static_cast<int>(middle.y() * map.height), 0, map.height - 1);
+    const std::size_t texel = std::size_t(y) * map.width + x;
+    if (map.covered(texel)) continue;
+    map.triangle[texel] = t;
+    map.barycentric[texel] = Vec2::Constant(1.0f / 3.0f);
+    seen[chart] = true;
+  }
+}
+
+std::uint16_t wrapped(double place) {
+  return static_cast<std::uint16_t>(
+      static_cast<std::int64_t>(std::llround((place - std::floor(place)) * 65536.0)) & 0xffff);
+}
+
+}  // namespace
+
+Result<IdMap> placeIds(const Atlas& atlas, const MesoMesh& mesh, std::span<const Vec2> coordinates,
+                       const IdMapOptions& options, const Progress& progress) {
+  if (options.size < 1 || options.size > 16384)
+    return report::badUsage("an id map must have 1 to 16384 texels a side");
+  if (options.neighbours < 1)
+    return report::badUsage("normal shooting needs one neighbour at least");
+  if (!(options.patchSize.minCoeff() > 0.0f) || !options.patchSize.allFinite())
+    return report::badUsage("the patch must have a size above 0");
+  if (mesh.positions.empty()) return report::badInput("the meso-mesh has no vertices");
+  if (mesh.normals.size() != mesh.positions.size() ||
+      mesh.tangents.size() != mesh.positions.size() || coordinates.size() != mesh.positions.size())
+    return report::badUsage(
+        "the meso-mesh has " + std::to_string(mesh.positions.size()) +
+        " vertices; normals, tangents and synthesised coordinates must be as many");
+
+  scene::TexelMap map = scene::texelMap(atlas.mesh, options.size, options.size);
+  giveEveryChartATexel(atlas, map);
+  std::vector<std::uint8_t> full(map.size());
+  std::size_t covered = 0;
+  for (std::size_t texel = 0; texel < map.size(); ++texel)
+    covered += full[texel] = map.covered(texel) ? 1 : 0;
+  if (covered == 0)
+    return report::badInput("the atlas covers no texel of a " + std::to_string(options.size) + "×" +
+                            std::to_string(options.size) + " map; ask for a larger one");
+
+  const Points points{mesh.positions};
+  nanoflann::KDTreeSingleIndexAdaptorParams parameters;
+  parameters.leaf_max_size = 16;
+  const Tree tree(3, points, parameters);
+
+  IdMap ids;
+  ids.width = ids.height = options.size;
+  ids.ids.resize(2 * map.size());
+  constexpr int kBlock = 32;  // texels that lie together need the same parts of the tree
+  const int blocks = (options.size + kBlock - 1) / kBlock;
+  std::atomic<std::uint64_t> done = 0;
+  std::atomic<bool> stopped = false;
+  std::mutex reporting;
+  const auto placeBlock = [&](int block, Search& search) {
+    std::uint64_t placed = 0;
+    const int x0 = block % blocks * kBlock, y0 = block / blocks * kBlock;
+    for (int y = y0; y < std::min(options.size, y0 + kBlock); ++y)
+      for (int x = x0; x < std::min(options.size, x0 + kBlock); ++x) {
+        const std::size_t texel = std::size_t(y) * options.size + x;
+        if (!full[texel]) continue;
+        ++placed;
+        const scene::Triangle& corners = atlas.mesh.triangles[map.triangle[texel]];
+        const Vec2 b = map.barycentric[texel];
+        const float weights[3] = {1.0f - b.x() - b.y(), b.x(), b.y()};
+        Vec3 at = Vec3::Zero(), normal = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+          at += weights[k] * atlas.mesh.positions[corners[k]];
+          normal += weights[k] * atlas.mesh.normals[corners[k]];
+        }
+        if (normal.squaredNorm() > 0.0f)
+          normal.normalize();
+        else
+          normal = atlas.mesh.normals[corners[0]];
+        const std::uint32_t v =
+            shoot(tree, mesh, at, normal, static_cast<std::size_t>(options.neighbours), search);
+        const Vec3 offset = at - mesh.positions[v];
+        const Vec3& tangent = mesh.tangents[v];
+        const Vec3 across = mesh.normals[v].cross(tangent);
+        ids.ids[2 * texel] = wrapped(double(coordinates[v].x()) +
+                                     double(offset.dot(tangent)) / options.patchSize.x());
+        ids.ids[2 * texel + 1] = wrapped(double(coordinates[v].y()) +
+                                         double(offset.dot(across)) / options.patchSize.y());
+      }
+    done += placed;
+    if (!progress || !reporting.try_lock()) return;
+    const std::lock_guard<std::mutex> lock(reporting, std::adopt_lock);
+    if (!progress({"id map", done, covered, "texels"})) stopped = true;
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(0, blocks * blocks), [&](const auto& range) {
+    Search search;
+    for (int block = range.begin(); block < range.end() && !stopped; ++block)
+      placeBlock(block, search);
+  });
+  if (stopped) return report::cancelled();
+
+  const std::vector<std::uint32_t> nearest = scene::nearestFull(options.size, options.size, full);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, map.size()), [&](const auto& range) {
+    for (std::size_t texel = range.begin(); texel < range.end(); ++texel) {
+      if (full[texel]) continue;  // others read these: they are not written here
+      ids.ids[2 * texel] = ids.ids[2 * std::size_t(nearest[texel])];
+      ids.ids[2 * texel + 1] = ids.ids[2 * std::size_t(nearest[texel]) + 1];
+    }
+  });
+  return ids;
+}
+
+}  // namespace lambent::synthesis

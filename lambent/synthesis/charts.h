@@ -1,0 +1,24 @@
+// A surface cut into charts: compact pieces whose normals do not turn far, with borders along
+// creases where there are any.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lambent/synthesis/welded_surface.h"
+
+namespace lambent::synthesis {
+
+/// Triangles in rising sequence.
+using Chart = std::vector<std::uint32_t>;
+
+/// Every triangle of area in exactly one chart. A chart hangs together across edges; it need not be
+/// a disc. The same at any number of threads.
+std::vector<Chart> cutIntoCharts(const WeldedSurface& surface);
+
+/// The chart in two or more pieces, for charts that cannot be laid out. `chart` has two triangles
+/// at least. `chartOf` tells for every triangle of the surface which chart it is in.
+std::vector<Chart> cutInTwo(const WeldedSurface& surface, const Chart& chart,
+                            const std::vector<std::uint32_t>& chartOf);
+
+}  // namespace lambent::synthesis

@@ -1,0 +1,123 @@
+#include "lambent/synthesis/welded_surface.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+namespace lambent::synthesis {
+namespace {
+
+/// A triangle whose height is below this share of its longest edge is a line: floats that are read
+/// from files do not say which side of it is the front.
+constexpr double kThinnest = 1e-7;
+
+std::vector<std::uint32_t> weld(const scene::Mesh& mesh, std::vector<Vec3d>& positions) {
+  std::vector<std::array<float, 3>> keys(mesh.positions.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Vec3 p = mesh.positions[i] + Vec3::Zero();  // −0 becomes +0
+    keys[i] = {p.x(), p.y(), p.z()};
+  }
+  std::vector<std::uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
+  });
+  // Positions are numbered by their first vertex, so that neighbours in the file stay neighbours in
+  // memory.
+  std::vector<std::uint32_t> first(keys.size()), ids(keys.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] =
+        i > 0 && keys[order[i]] == keys[order[i - 1]] ? first[order[i - 1]] : order[i];
+  for (std::uint32_t i = 0; i < ids.size(); ++i) {
+    if (first[i] == i) {
+      ids[i] = static_cast<std::uint32_t>(positions.size());
+      positions.push_back(mesh.positions[i].cast<double>());
+    } else {
+      ids[i] = ids[first[i]];
+    }
+  }
+  return ids;
+}
+
+}  // namespace
+
+WeldedSurface weldedSurface(const scene::Mesh& mesh) {
+  WeldedSurface surface;
+  const std::vector<std::uint32_t> ids = weld(mesh, surface.positions);
+  const std::size_t count = mesh.triangles.size();
+  surface.triangles.resize(count);
+  surface.neighbours.assign(count, {kNoTriangle, kNoTriangle, kNoTriangle});
+  surface.normals.assign(count, Vec3d::Zero());
+  surface.centroids.resize(count);
+  surface.areas.assign(count, 0.0);
+
+  struct Edge {
+    std::uint64_t ends;
+    std::uint32_t triangle;
+    std::uint8_t side;
+    bool upwards;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    auto& v = surface.triangles[t];
+    for (int k = 0; k < 3; ++k) v[k] = ids[mesh.triangles[t][k]];
+    const Vec3d &a = surface.positions[v[0]], &b = surface.positions[v[1]],
+                &c = surface.positions[v[2]];
+    surface.centroids[t] = (a + b + c) / 3.0;
+    const Vec3d doubled = (b - a).cross(c - a);
+    const double size = doubled.norm();
+    const double longest =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    if (!(size > kThinnest * longest)) continue;
+    surface.areas[t] = 0.5 * size;
+    surface.area += 0.5 * size;
+    surface.normals[t] = doubled / size;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t from = v[k], to = v[(k + 1) % 3];
+      edges.push_back({std::uint64_t(std::min(from, to)) << 32 | std::max(from, to), t,
+                       static_cast<std::uint8_t>(k), from < to});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.ends != b.ends ? a.ends < b.ends : a.triangle < b.triangle;
+  });
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i + 1;
+    while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
+    if (end - i == 2 && edges[i].upwards != edges[i + 1].upwards) {
+      surface.neighbours[edges[i].triangle][edges[i].side] = edges[i + 1].triangle;
+      surface.neighbours[edges[i + 1].triangle][edges[i + 1].side] = edges[i].triangle;
+    } else if (end - i >= 2) {
+      ++surface.nonManifoldEdges;
+    }
+    i = end;
+  }
+  return surface;
+}
+
+std::vector<std::vector<std::uint32_t>> WeldedSurface::components() const {
+  std::vector<std::vector<std::uint32_t>> result;
+  std::vector<bool> seen(triangles.size());
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (seen[t] || !hasArea(t)) continue;
+    std::vector<std::uint32_t> members;
+    seen[t] = true;
+    stack.push_back(t);
+    while (!stack.empty()) {
+      const std::uint32_t at = stack.back();
+      stack.pop_back();
+      members.push_back(at);
+      for (const std::uint32_t n : neighbours[at])
+        if (n != kNoTriangle && !seen[n]) seen[n] = true, stack.push_back(n);
+    }
+    std::sort(members.begin(), members.end());
+    result.push_back(std::move(members));
+  }
+  return result;
+}
+
+}  // namespace lambent::synthesis
