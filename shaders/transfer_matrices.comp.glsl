@@ -1,22 +1,26 @@
-// Radiance that reaches glossy receivers, M L, convolved with their lobe: α_i G_i (M L)_i k
-// (sloan2002precomputed eq. 9 and 12). One invocation for each receiver and row.
+// Radiance that reaches receivers, M L, times a factor for each row. Glossy: convolved with their
+// lobe, α_i G_i (M L)_i k (sloan2002precomputed eq. 9 and 12). Under meso-structure: the factors are
+// the scales of its texture's coefficients (sloan2003bi eq. 4). One invocation for each receiver and
+// row.
 
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 1) readonly buffer Light { float light[]; };  // [column][3]
-layout(std430, binding = 2) writeonly buffer Lobe { float lobe[]; };   // [receiver][row][3]
-layout(std430, binding = 3) readonly buffer Factors { float factors[]; };  // α_i G_i, [row]
+layout(std430, binding = 2) writeonly buffer Lit { float lit[]; };     // [receiver][row][3]
+layout(std430, binding = 3) readonly buffer Factors { float factors[]; };  // [row]
 
 uniform uint receivers;  // in this chunk
 uniform uint first;      // of this chunk in the output
 uniform uint channels;   // 1 or 3
 uniform uint rows;
+uniform uint rowsUsed;  // of them, the first
+uniform uint stride;    // numbers of a receiver in the output, 3 · rowsUsed at least
 uniform uint columns;
 uniform uint used;  // of the columns, as many as the light has
-uniform vec3 glossy;
+uniform vec3 reflectance;
 
 void main() {
-  uint p = gl_GlobalInvocationID.x / rows, i = gl_GlobalInvocationID.x % rows;
+  uint p = gl_GlobalInvocationID.x / rowsUsed, i = gl_GlobalInvocationID.x % rowsUsed;
   if (p >= receivers) return;
   uint base = (p * channels * rows + i) * columns;
   uint nextChannel = rows * columns;
@@ -30,9 +34,9 @@ void main() {
     }
     sum += m * l;
   }
-  sum *= glossy * factors[i];
-  uint at = 3u * ((first + p) * rows + i);
-  lobe[at] = sum.x;
-  lobe[at + 1u] = sum.y;
-  lobe[at + 2u] = sum.z;
+  sum *= reflectance * factors[i];
+  uint at = (first + p) * stride + 3u * i;
+  lit[at] = sum.x;
+  lit[at + 1u] = sum.y;
+  lit[at + 2u] = sum.z;
 }

@@ -108,6 +108,12 @@ void Program::set(const char* uniform, unsigned value) const {
 void Program::set(const char* uniform, int x, int y) const {
   glProgramUniform2i(program_.name(), location(uniform), x, y);
 }
+void Program::set(const char* uniform, int x, int y, int z, int w) const {
+  glProgramUniform4i(program_.name(), location(uniform), x, y, z, w);
+}
+void Program::set(const char* uniform, float x, float y) const {
+  glProgramUniform2f(program_.name(), location(uniform), x, y);
+}
 void Program::set(const char* uniform, float x, float y, float z) const {
   glProgramUniform3f(program_.name(), location(uniform), x, y, z);
 }

@@ -85,6 +85,8 @@ class Program {
   void set(const char* uniform, int value) const;
   void set(const char* uniform, unsigned value) const;
   void set(const char* uniform, int x, int y) const;
+  void set(const char* uniform, int x, int y, int z, int w) const;
+  void set(const char* uniform, float x, float y) const;
   void set(const char* uniform, float x, float y, float z) const;
   void set(const char* uniform, float x, float y, float z, float w) const;
   void setMatrix(const char* uniform, const float* columnMajor) const;

@@ -133,6 +133,7 @@ Result<image::Image> pictureInBlocks(const asset::Asset& asset, const sh::RgbCoe
   sceneOptions.largestBlock = std::min(largestBlock, context->largestStorageBlock());
   sceneOptions.largestTexture = context->largestTexture();
   sceneOptions.lobeExponent = options.lobeExponent;
+  sceneOptions.biScale = options.biScale;
   const Result<GlScene> scene = GlScene::make(asset, light, environment, sceneOptions);
   if (!scene) return scene.error();
   const Result<Target> target = Target::make(width, height);
@@ -141,6 +142,7 @@ Result<image::Image> pictureInBlocks(const asset::Asset& asset, const sh::RgbCoe
   const Mat4 clipFromWorld =
       scene::clipFromWorld(camera, width, height, scene::bounds(asset.scene));
   const Eigen::Vector4f eye = eyeOf(camera);
+  const shade::SampleWidth sampleWidth = shade::sampleWidth(camera, height, options.samples);
   const float handedness = camera.worldFromCamera.topLeftCorner<3, 3>().determinant();
   glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer.name());
   glViewport(0, 0, width, height);
@@ -151,7 +153,7 @@ Result<image::Image> pictureInBlocks(const asset::Asset& asset, const sh::RgbCoe
   const std::vector<Vec2> places = scene::subpixelPositions(options.samples);
   for (std::size_t i = 0; i < places.size(); ++i) {
     target->clear();
-    scene->draw(shifted(clipFromWorld, places[i], width, height), eye);
+    scene->draw({shifted(clipFromWorld, places[i], width, height), eye, sampleWidth});
     target->addToSum();
     if (Status s = checkGl("drawing"); !s) return s.error();
     if (progress) {

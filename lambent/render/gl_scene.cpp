@@ -151,6 +151,7 @@ Status GlScene::addMesh(std::uint32_t index, TransferOnGpu& transfer,
                         const GlSceneOptions& options) {
   const scene::Mesh& mesh = asset_->scene.meshes[index];
   const encode::EncodedMesh& encoded = asset_->transfer.meshes[index];
+  if (encoded.biScale && !materialOf(index).isMirror()) return patches_.add(index, transfer);
   const bool texels = encoded.layout == Layout::Texels && !materialOf(index).isMirror();
   const bool vertices = encoded.layout == Layout::Vertices && !materialOf(index).isMirror();
   const std::size_t perReceiver =
@@ -213,7 +214,7 @@ Status GlScene::addMesh(std::uint32_t index, TransferOnGpu& transfer,
 Result<GlScene> GlScene::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
                               const light::Environment& environment,
                               const GlSceneOptions& options) {
-  GlScene scene(asset);
+  GlScene scene(asset, options);
   GLuint vertexArray = 0;
   glCreateVertexArrays(1, &vertexArray);
   scene.noAttributes_ = VertexArray(vertexArray);
@@ -232,7 +233,7 @@ Result<GlScene> GlScene::make(const asset::Asset& asset, const sh::RgbCoefficien
   return scene;
 }
 
-void GlScene::draw(const Mat4& clipFromWorld, const Eigen::Vector4f& eye) const {
+void GlScene::draw(const GlView& view) const {
   glBindVertexArray(noAttributes_.name());
   glBindTextureUnit(1, environment_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, srgbTable_.name());
@@ -247,8 +248,8 @@ void GlScene::draw(const Mat4& clipFromWorld, const Eigen::Vector4f& eye) const 
                                                                    : SurfaceKind::Texels;
     const Program& program = programs_.at(draw.lit ? lobeBandsOf(draw.mesh) : 0);
     program.use();
-    program.setMatrix("clipFromWorld", clipFromWorld.data());
-    program.set("eye", eye.x(), eye.y(), eye.z(), eye.w());
+    program.setMatrix("clipFromWorld", view.clipFromWorld.data());
+    program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
     program.set("kind", int(kind));
     program.set("hasDiffuse", int(draw.lit && !transfer.vectors.empty()));
     program.set("albedoOutside", int(transfer.albedo == transport::Albedo::BaseColor));
@@ -267,6 +268,7 @@ void GlScene::draw(const Mat4& clipFromWorld, const Eigen::Vector4f& eye) const 
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, draw.lit ? lit_[*draw.lit].lobe.name() : 0);
     glDrawArrays(GL_TRIANGLES, 0, geometry.cornerCount);
   }
+  patches_.draw(view, noAttributes_.name());
 }
 
 }  // namespace lambent::render

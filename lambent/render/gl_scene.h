@@ -10,6 +10,8 @@
 #include "lambent/light/environment.h"
 #include "lambent/render/batches.h"
 #include "lambent/render/gl_objects.h"
+#include "lambent/render/gl_patches.h"
+#include "lambent/render/gl_view.h"
 #include "lambent/render/light_on_gpu.h"
 
 namespace lambent::render {
@@ -18,6 +20,7 @@ struct GlSceneOptions {
   std::size_t largestBlock = 0;  ///< bytes of one storage buffer
   int largestTexture = 0;        ///< side, in texels
   std::optional<float> lobeExponent;
+  shade::BiScaleOptions biScale;
 };
 
 class GlScene {
@@ -27,8 +30,7 @@ class GlScene {
                               const light::Environment& environment, const GlSceneOptions& options);
 
   /// Draws all surfaces into the bound framebuffer: radiance, and 1 in alpha.
-  /// eye: the camera's position and 1, or the unit direction to an orthographic one and 0.
-  void draw(const Mat4& clipFromWorld, const Eigen::Vector4f& eye) const;
+  void draw(const GlView& view) const;
 
  private:
   struct Geometry {
@@ -45,7 +47,9 @@ class GlScene {
     RowBand rows;
   };
 
-  explicit GlScene(const asset::Asset& asset) : asset_(&asset) {}
+  GlScene(const asset::Asset& asset, const GlSceneOptions& options)
+      : asset_(&asset),
+        patches_(asset, {options.largestBlock, options.largestTexture, options.biScale}) {}
   Status addMesh(std::uint32_t mesh, TransferOnGpu& transfer, const GlSceneOptions& options);
   Status addTexture(int texture, const GlSceneOptions& options);
   Status addProgram(int lobeBands);
@@ -60,6 +64,7 @@ class GlScene {
   int lobeBandsOf(std::uint32_t mesh) const;
 
   const asset::Asset* asset_;
+  GlPatches patches_;
   std::vector<Geometry> geometries_;
   std::vector<Lit> lit_;
   std::vector<Draw> draws_;

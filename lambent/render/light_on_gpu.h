@@ -5,16 +5,21 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "lambent/encode/encoded_field.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/shade/bi_scale_options.h"
 
 namespace lambent::render {
 
+/// The line that tells shaders how numbers are stored (shaders/numbers.glsl).
+std::string numbersDefine(encode::Encoding encoding);
+
 class TransferOnGpu {
  public:
-  /// No buffer that is made here exceeds `largestBlock` bytes.
+  /// `light` must outlive it. No buffer that is made here exceeds `largestBlock` bytes.
   TransferOnGpu(const sh::RgbCoefficients& light, std::size_t largestBlock);
 
   /// Exit radiance M · L of the named receivers of a mesh: [receiver][3] floats.
@@ -22,11 +27,27 @@ class TransferOnGpu {
   /// α_i G_i (M L)_i k: [receiver][coefficient][3] floats.
   Result<Buffer> lobe(const encode::EncodedMesh& mesh, std::span<const std::uint32_t> receivers,
                       std::optional<float> lobeExponent);
+  /// Light that arrives at the meso-structure of the named receivers of a bi-scale mesh, times a
+  /// factor for each of bands² coefficients: rttStride(bands) floats a receiver, laid out as
+  /// shade::RttPyramid's numbers are. `macro` must be held.
+  Result<Buffer> incident(const encode::EncodedMesh& mesh, std::span<const std::uint32_t> receivers,
+                          int bands, std::span<const float> factors,
+                          std::optional<shade::MacroTransport> macro);
 
  private:
   enum class Kind { Vectors, Matrices };
+  /// As shade::MatrixShape, and what becomes of the products.
+  struct Product {
+    int channels = 1, rows = 0, columns = 0;
+    int rowsUsed = 0, stride = 0;  ///< numbers of a receiver in the output
+    Rgb reflectance = Rgb::Ones();
+  };
   Result<const Program*> program(Kind kind, encode::Encoding encoding);
+  Status multiply(const encode::Numbers& matrices, const Product& product,
+                  std::span<const std::uint32_t> receivers, std::span<const float> factors,
+                  const Buffer& out);
 
+  const sh::RgbCoefficients& lightOnCpu_;
   int lightCoefficients_ = 0;
   std::size_t largestBlock_ = 0;
   Buffer light_;

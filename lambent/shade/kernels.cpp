@@ -157,7 +157,8 @@ void matrix(const Number* matrices, std::size_t receivers, int channels, int row
 }  // namespace
 
 Kernels kernels() {
-  return {diffuse<std::uint16_t>, diffuse<float>, matrix<std::uint16_t>, matrix<float>};
+  return {diffuse<std::uint16_t>, diffuse<float>, matrix<std::uint16_t>, matrix<float>,
+          matrix<std::int8_t>};
 }
 
 }  // namespace LAMBENT_ISA

@@ -16,9 +16,9 @@ template <class Number>
 using DiffuseKernel = void (*)(const Number* blocks, std::size_t blockCount, int channels,
                                int stride, int count, const float* light, float* out);
 
-/// Glossy transfer, [receiver][channel][rows][columns], times RGB light. light: three vectors of
+/// Matrices, [receiver][channel][rows][columns], times RGB light. light: three vectors of
 /// paddedColumns(columns) floats, the padding zero. scratch: channels·rows·columns + kBlock floats.
-/// out: [receiver][3][rows].
+/// out: [receiver][3][rows]. Bytes count as the integers that they are: scales are the caller's.
 template <class Number>
 using MatrixKernel = void (*)(const Number* matrices, std::size_t receivers, int channels, int rows,
                               int columns, const float* light, float* scratch, float* out);
@@ -32,6 +32,7 @@ struct Kernels {
   DiffuseKernel<float> diffuseSingle;
   MatrixKernel<std::uint16_t> matrixHalf;
   MatrixKernel<float> matrixSingle;
+  MatrixKernel<std::int8_t> matrixByte;
 };
 
 namespace baseline {

@@ -2,18 +2,22 @@
 // interpolates on the GPU: over a triangle (or between texels) the exit radiance of a diffuse
 // surface, and the lobe-convolved coefficients of transferred radiance of a glossy one, which are
 // evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows the
-// environment, unblocked: "a traditional environment map".
+// environment, unblocked: "a traditional environment map". With meso-structure it is the light that
+// arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003bi §5).
 
 #include "lambent/shade/picture.h"
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <mutex>
 
 #include <tbb/parallel_for.h>
 
 #include "lambent/shade/lit_mesh.h"
+#include "lambent/shade/lit_patch.h"
 #include "lambent/shade/picture_frame.h"
+#include "lambent/shade/rtt_footprint.h"
 #include "lambent/trace/ray_scene.h"
 
 namespace lambent::shade {
@@ -22,7 +26,9 @@ namespace {
 struct LitScene {
   const asset::Asset& asset;
   const light::Environment& environment;
+  SampleWidth width;
   std::vector<LitMesh> meshes;
+  std::map<std::uint32_t, LitPatch> patches;  ///< of meshes with meso-structure
 
   Rgb exitRadiance(const trace::Hit& hit, const Vec3& toViewer) const {
     if (hit.backFace) return Rgb::Zero();
@@ -33,6 +39,9 @@ struct LitScene {
     const LitMesh& lit = meshes[hit.mesh];
 
     const scene::SurfacePoint point = scene::surfaceAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
+    if (transfer.biScale && !material.isMirror())
+      return patches.at(hit.mesh).at(hit.triangle, hit.u, hit.v, point, toViewer,
+                                     width.at(hit.distance));
     const Rgb base = baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
     const Vec3 reflected = mirrored(toViewer, point.normal);
     if (material.isMirror()) return material.mirror * base * environment.radiance(reflected);
@@ -55,9 +64,15 @@ Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficient
   Result<trace::RayScene> rays = trace::RayScene::build(asset.scene);
   if (!rays) return rays.error();
 
-  LitScene lit{asset, environment, {}};
-  for (const encode::EncodedMesh& mesh : asset.transfer.meshes)
+  LitScene lit{asset, environment, sampleWidth(camera, options.height, options.samples), {}, {}};
+  RttPyramids pyramids(asset.transfer, options.biScale.filter);
+  for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m) {
+    const encode::EncodedMesh& mesh = asset.transfer.meshes[m];
     lit.meshes.push_back(lightMesh(mesh, light, options.lobeExponent));
+    if (mesh.biScale)
+      lit.patches.emplace(m, LitPatch(asset.scene.meshes[m], mesh, asset.transfer,
+                                      pyramids.of(mesh.biScale->rtt), light, options.biScale));
+  }
 
   const int width = options.width, height = options.height;
   const std::vector<Vec2> positions = scene::subpixelPositions(options.samples);

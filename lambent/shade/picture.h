@@ -8,6 +8,7 @@
 #include "lambent/light/environment.h"
 #include "lambent/report/progress.h"
 #include "lambent/scene/camera.h"
+#include "lambent/shade/bi_scale_options.h"
 
 namespace lambent::shade {
 
@@ -16,6 +17,7 @@ struct PictureOptions {
   int samples = 16;         ///< per pixel, at scene::subpixelPositions
   bool background = false;  ///< the environment behind the object; otherwise black, alpha 0
   std::optional<float> lobeExponent;
+  BiScaleOptions biScale;  ///< of meshes with meso-structure
 };
 
 /// Linear radiance, never negative (what a ringing light drives below zero is cut off per pixel,

@@ -6,6 +6,8 @@
 #include <tbb/parallel_for.h>
 #include <Eigen/LU>
 
+#include "lambent/shade/check_bi_scale.h"
+
 namespace lambent::shade {
 namespace {
 
@@ -15,18 +17,14 @@ constexpr int kMostSamples = 4096;
 using encode::EncodedMesh;
 using transport::Layout;
 
-Status checkNumbers(const std::string& where, const char* what, const encode::Numbers& numbers,
-                    std::size_t receivers, int channels, int perChannel) {
+Status checkTransfer(const std::string& where, const char* what, const encode::Numbers& numbers,
+                     std::size_t receivers, int channels, int perChannel) {
   if (numbers.empty()) return Status::ok();
   if (channels != 1 && channels != 3)
     return report::badInput(fmt::format(
         "{}: {} of {} channels, where 1 or 3 can be. Bake the asset again", where, what, channels));
-  const std::size_t expected = receivers * channels * perChannel;
-  if (numbers.size() != expected)
-    return report::badInput(
-        fmt::format("{}: {} hold {} numbers, but {} receivers need {}. Bake the asset again", where,
-                    what, numbers.size(), receivers, expected));
-  return Status::ok();
+  return checkNumbers(fmt::format("{}: its {}", where, what), numbers,
+                      receivers * channels * perChannel);
 }
 
 bool bandsStand(int bands) {
@@ -68,11 +66,11 @@ Status checkMesh(const std::string& where, const scene::Mesh& mesh, const Encode
       !(bandsStand(transfer.inBands) && bandsStand(transfer.outBands)))
     return report::badInput(fmt::format("{}: matrices of {}×{} bands, where 1 to {} can be", where,
                                         transfer.outBands, transfer.inBands, sh::kMaxBands));
-  if (Status s = checkNumbers(where, "transfer vectors", transfer.vectors, receivers,
-                              transfer.channels, sh::coefficientCount(transfer.bands));
+  if (Status s = checkTransfer(where, "transfer vectors", transfer.vectors, receivers,
+                               transfer.channels, sh::coefficientCount(transfer.bands));
       !s)
     return s;
-  return checkNumbers(
+  return checkTransfer(
       where, "transfer matrices", transfer.matrices, receivers, transfer.matrixChannels,
       sh::coefficientCount(transfer.outBands) * sh::coefficientCount(transfer.inBands));
 }
@@ -112,7 +110,7 @@ Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
     triangles += mesh.triangles.size();
   }
   if (triangles == 0) return report::badInput("the asset has no triangles: nothing to see");
-  return Status::ok();
+  return checkBiScale(asset, options.biScale);
 }
 
 void finishPicture(image::Image& image, const light::Environment& environment,

@@ -20,6 +20,8 @@
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/dispatch.h"
 #include "lambent/shade/lit_mesh.h"
+#include "lambent/shade/lit_patch.h"
+#include "lambent/shade/transfer_matrices.h"
 
 namespace lambent::shade {
 
@@ -70,7 +72,8 @@ DiffuseShader::DiffuseShader(const EncodedMesh& mesh)
   assert(mesh.vectors.size() == receivers_ * channels_ * coefficients);
   if (mesh.vectors.encoding == Encoding::Float32)
     single_ = inBlocks(mesh.vectors.single, receivers_, channels_, coefficients);
-  else if (math::bestIsa() == math::Isa::Baseline)  // decoding takes longer there than reading
+  else if (mesh.vectors.encoding == Encoding::Snorm8 ||
+           math::bestIsa() == math::Isa::Baseline)  // decoding takes longer there than reading
     single_ = inBlocks(encode::decode(mesh.vectors), receivers_, channels_, coefficients);
   else
     half_ = inBlocks(mesh.vectors.half, receivers_, channels_, coefficients);
@@ -98,39 +101,40 @@ void DiffuseShader::shade(const sh::RgbCoefficients& light, std::span<float> out
 
 std::vector<float> transferredRadiance(const EncodedMesh& mesh, const sh::RgbCoefficients& light) {
   if (mesh.matrices.empty()) return {};
-  const int rows = sh::coefficientCount(mesh.outBands);
-  const int columns = sh::coefficientCount(mesh.inBands);
-  const int channels = mesh.matrixChannels, padded = paddedColumns(columns);
-  const std::size_t receivers = mesh.receiverCount();
-  const std::size_t size = std::size_t(channels) * rows * columns;
-  assert(channels == 1 || channels == 3);
-  assert(mesh.matrices.size() == receivers * size);
+  return applyMatrices(mesh.matrices,
+                       {mesh.receiverCount(), mesh.matrixChannels,
+                        sh::coefficientCount(mesh.outBands), sh::coefficientCount(mesh.inBands)},
+                       light);
+}
 
-  std::vector<float> padLight(3 * std::size_t(padded));
-  const int count = std::min(columns, sh::coefficientCount(light.bands));
-  for (int c = 0; c < 3; ++c)
-    std::copy_n(light.channel(c).begin(), count, padLight.begin() + c * padded);
+namespace {
 
-  const Kernels kernels = kernelsFor(math::bestIsa());
-  std::vector<float> out(receivers * 3 * rows);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers, 256), [&](const auto& range) {
-    std::vector<float> scratch(size + kBlock);
-    float* at = out.data() + range.begin() * 3 * rows;
-    if (mesh.matrices.encoding == Encoding::Float16)
-      kernels.matrixHalf(mesh.matrices.half.data() + range.begin() * size, range.size(), channels,
-                         rows, columns, padLight.data(), scratch.data(), at);
-    else
-      kernels.matrixSingle(mesh.matrices.single.data() + range.begin() * size, range.size(),
-                           channels, rows, columns, padLight.data(), scratch.data(), at);
+Vec3 directionToViewer(const View& view, const EncodedMesh& mesh, std::size_t receiver) {
+  const Vec3& normal = mesh.normals[receiver];
+  return view.eye ? Vec3((*view.eye - mesh.positions[receiver]).normalized()) : normal;
+}
+
+std::vector<Rgb> patchRadiance(const asset::Asset& asset, std::uint32_t meshIndex,
+                               const sh::RgbCoefficients& light, const View& view) {
+  const EncodedMesh& mesh = asset.transfer.meshes[meshIndex];
+  const LitPatch lit(asset.scene.meshes[meshIndex], mesh, asset.transfer,
+                     RttPyramids(asset.transfer, false).of(mesh.biScale->rtt), light, view.biScale);
+  std::vector<Rgb> out(mesh.receiverCount());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 1024), [&](const auto& range) {
+    for (std::size_t p = range.begin(); p < range.end(); ++p)
+      out[p] = lit.atReceiver(std::uint32_t(p), directionToViewer(view, mesh, p));
   });
   return out;
 }
+
+}  // namespace
 
 std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t meshIndex,
                               const sh::RgbCoefficients& light, const View& view) {
   assert(meshIndex < asset.transfer.meshes.size() && meshIndex < asset.scene.meshes.size());
   const EncodedMesh& mesh = asset.transfer.meshes[meshIndex];
   if (mesh.layout == transport::Layout::None) return {};
+  if (mesh.biScale) return patchRadiance(asset, meshIndex, light, view);
   const LitMesh lit = lightMesh(mesh, light, view.lobeExponent);
   const std::vector<Rgb> base = receiverBaseColors(asset.scene, meshIndex, mesh);
 
@@ -140,7 +144,7 @@ std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t meshIndex
       const Receivers at = Receivers::one(std::uint32_t(p));
       const Rgb outside = base.empty() ? Rgb(Rgb::Ones()) : base[p];
       const Vec3& normal = mesh.normals[p];
-      const Vec3 toViewer = view.eye ? Vec3((*view.eye - mesh.positions[p]).normalized()) : normal;
+      const Vec3 toViewer = directionToViewer(view, mesh, p);
       out[p] = lit.diffuseAt(at) * (lit.albedoOutside ? outside : Rgb(Rgb::Ones())) +
                lit.glossyAt(at, mirrored(toViewer, normal)) * outside;
     }

@@ -10,6 +10,7 @@
 #include "lambent/math/types.h"
 #include "lambent/sh/coefficients.h"
 #include "lambent/shade/aligned_vector.h"
+#include "lambent/shade/bi_scale_options.h"
 
 namespace lambent::shade {
 
@@ -37,6 +38,7 @@ std::vector<float> transferredRadiance(const encode::EncodedMesh& mesh,
 struct View {
   std::optional<Vec3> eye;  ///< world position; none: every receiver is seen along its normal
   std::optional<float> lobeExponent;  ///< instead of the material's
+  BiScaleOptions biScale;             ///< of meshes with meso-structure; receivers are not filtered
 };
 
 /// Whole exit radiance of every receiver of a mesh: diffuse and glossy (eq. 12) parts and base

@@ -49,10 +49,21 @@ LAMBENT_INLINE Native loadNative(const std::uint16_t* p) {
                                        _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)));
 }
 
+LAMBENT_INLINE Native loadNative(const std::int8_t* p) {
+  return (Native)_mm512_maskz_cvtepi32_ps(
+      __mmask16(-1), _mm512_maskz_cvtepi8_epi32(
+                         __mmask16(-1), _mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
+}
+
 #elif defined(__F16C__)
 
 LAMBENT_INLINE Native loadNative(const std::uint16_t* p) {
   return (Native)_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+}
+
+LAMBENT_INLINE Native loadNative(const std::int8_t* p) {
+  return (Native)_mm256_cvtepi32_ps(
+      _mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p))));
 }
 
 #else
@@ -71,6 +82,12 @@ LAMBENT_INLINE Native loadNative(const std::uint16_t* p) {
   const I isSmall = exponent == 0, isSpecial = exponent == 0x7c00;
   return (Native)(sign | (isSmall & small) | (isSpecial & special) |
                   (~(isSmall | isSpecial) & normal));
+}
+
+LAMBENT_INLINE Native loadNative(const std::int8_t* p) {
+  typedef std::int8_t Bytes __attribute__((vector_size(4)));
+  typedef std::int8_t BytesUnaligned __attribute__((vector_size(4), aligned(1)));
+  return __builtin_convertvector((Bytes) * reinterpret_cast<const BytesUnaligned*>(p), Native);
 }
 
 #endif

@@ -1,0 +1,282 @@
+// This work is based on:
+// - sloan2003bi: bi-scale radiance transfer, §5, with what hardware has learnt since: the light at
+//   the vertices is made by a compute pass, and the texture of 4 + 1 dimensions is a buffer that a
+//   fragment reads 16 bytes at a time.
+//
+// A buffer and not an array texture with the hardware's bilinear views: the 25 RGB coefficients of
+// a view lie side by side (80 bytes in 8 bits), where an array's layers would touch 25 places far
+// apart.
+
+#include "lambent/render/gl_patches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "lambent/encode/half.h"
+#include "lambent/render/batches.h"
+#include "lambent/render/shader_sources.h"
+#include "lambent/shade/lit_patch.h"
+
+namespace lambent::render {
+namespace {
+
+using encode::EncodedBiScale;
+using encode::EncodedMesh;
+using encode::EncodedRtt;
+using encode::Encoding;
+
+constexpr int kMostLevels = 16;  // as in patch.frag.glsl
+
+struct PatchVertex {
+  float position[3], u;
+  float normal[3], v;
+  float tangent[3], unused;
+};
+
+struct PatchTriangle {
+  float normal[3], unused0;
+  float gradientX[3], unused1;
+  float gradientY[3], unused2;
+};
+
+std::vector<PatchVertex> gatherVertices(const scene::Mesh& mesh, const EncodedBiScale& biScale,
+                                        const TriangleBatch& batch) {
+  std::vector<PatchVertex> vertices;
+  for (const std::uint32_t from : batch.vertices) {
+    const Vec3 &p = mesh.positions[from], &n = mesh.normals[from], &t = biScale.tangents[from];
+    const Vec2& uv = mesh.uvs[from];
+    vertices.push_back({{p.x(), p.y(), p.z()},
+                        uv.x(),
+                        {n.x(), n.y(), n.z()},
+                        uv.y(),
+                        {t.x(), t.y(), t.z()},
+                        0.0f});
+  }
+  return vertices;
+}
+
+/// Of the triangles first … first + count − 1.
+std::vector<PatchTriangle> gatherTriangles(const scene::Mesh& mesh, const EncodedBiScale& biScale,
+                                           std::size_t first, std::size_t count) {
+  std::vector<PatchTriangle> triangles;
+  for (std::size_t t = first; t < first + count; ++t) {
+    const auto [i, j, k] = mesh.triangles[t];
+    const Vec3 n =
+        (mesh.positions[j] - mesh.positions[i]).cross(mesh.positions[k] - mesh.positions[i]);
+    shade::PatchGradient g;
+    if (!biScale.idMap) g = shade::patchGradient(biScale, mesh, std::uint32_t(t));
+    triangles.push_back({{n.x(), n.y(), n.z()},
+                         0.0f,
+                         {g.x.x(), g.x.y(), g.x.z()},
+                         0.0f,
+                         {g.y.x(), g.y.y(), g.y.z()},
+                         0.0f});
+  }
+  return triangles;
+}
+
+int groupsOf(int bands) {
+  return shade::rttStride(bands) / 4;
+}
+
+/// 16-byte texels that hold the numbers of one position and view.
+int fetchesOf(int bands, Encoding encoding) {
+  const int each = encoding == Encoding::Snorm8 ? 4 : encoding == Encoding::Float16 ? 2 : 1;
+  return (groupsOf(bands) + each - 1) / each;
+}
+
+/// One position and view as the shader's texels hold it; `scales` are those of bytes.
+void pack(const float* numbers, int stride, Encoding encoding, std::span<const float> scales,
+          std::uint32_t* words) {
+  switch (encoding) {
+    case Encoding::Snorm8:
+      for (int i = 0; i < stride; ++i) {
+        const float scale = std::size_t(i / 3) < scales.size() ? scales[i / 3] : 0.0f;
+        const float share = scale > 0.0f ? std::clamp(numbers[i] / scale, -1.0f, 1.0f) : 0.0f;
+        words[i / 4] |= std::uint32_t(std::uint8_t(std::lround(127.0f * share))) << (i % 4 * 8);
+      }
+      break;
+    case Encoding::Float16:
+      for (int i = 0; i < stride; ++i)
+        words[i / 2] |= std::uint32_t(encode::halfFromFloat(numbers[i])) << (i % 2 * 16);
+      break;
+    case Encoding::Float32:
+      for (int i = 0; i < stride; ++i) words[i] = std::bit_cast<std::uint32_t>(numbers[i]);
+      break;
+  }
+}
+
+}  // namespace
+
+Status GlPatches::addRtt(int index) {
+  if (rtts_.contains(index)) return Status::ok();
+  const EncodedRtt& from = asset_->transfer.rtts[std::size_t(index)];
+  const Encoding encoding = from.values.encoding;
+  const shade::RttPyramid pyramid =
+      shade::makePyramid(encode::decode(from), options_.biScale.filter ? kMostLevels : 1);
+
+  Rtt rtt;
+  std::size_t positions = 0;
+  for (const shade::RttLevel& level : pyramid.levels) {
+    rtt.levels.push_back({level.width, level.height, int(positions)});
+    positions += std::size_t(level.width) * level.height;
+  }
+  const std::size_t wordsEach = std::size_t(fetchesOf(from.bands, encoding)) * 4;
+  const std::size_t texels = positions * pyramid.viewCount() * wordsEach / 4;
+  GLint mostTexels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &mostTexels);
+  if (texels > std::size_t(mostTexels))
+    return report::failed(fmt::format(
+        "radiance transfer texture {} '{}' of {}×{} positions, {}×{} views and {} bands needs {} "
+        "MiB, but this OpenGL takes buffer textures of {}. Store it in 8 bits, or make the picture "
+        "on the CPU",
+        index, from.name, from.width, from.height, from.views, from.views, from.bands,
+        texels * 16 >> 20, std::size_t(mostTexels) * 16 >> 20));
+
+  rtt.scales.assign(std::size_t(from.bands) * from.bands, 1.0f);
+  if (encoding == Encoding::Snorm8)
+    for (std::size_t i = 0; i < rtt.scales.size(); ++i) {
+      // The largest of the runs that make up the coefficient: one, as encode() writes them.
+      const std::size_t plane = from.values.size() / rtt.scales.size();
+      const std::size_t begin = i * plane / from.values.block;
+      const std::size_t end = ((i + 1) * plane - 1) / from.values.block;
+      rtt.scales[i] = *std::max_element(from.values.scales.begin() + std::ptrdiff_t(begin),
+                                        from.values.scales.begin() + std::ptrdiff_t(end) + 1);
+    }
+  std::vector<std::uint32_t> words(texels * 4);
+  const std::size_t perPosition = pyramid.viewCount() * std::size_t(pyramid.stride());
+  for (std::size_t k = 0; k < pyramid.levels.size(); ++k) {
+    const shade::RttLevel& level = pyramid.levels[k];
+    tbb::parallel_for(0, level.width * level.height, [&](int place) {
+      for (std::size_t view = 0; view < pyramid.viewCount(); ++view)
+        pack(level.values.data() + place * perPosition + view * pyramid.stride(), pyramid.stride(),
+             encoding, rtt.scales,
+             words.data() +
+                 ((std::size_t(rtt.levels[k].first) + place) * pyramid.viewCount() + view) *
+                     wordsEach);
+    });
+  }
+  rtt.numbers = makeBuffer(words);
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+  rtt.texture = Texture(name);
+  glTextureBuffer(name, GL_RGBA32UI, rtt.numbers.name());
+  if (Status s = checkGl("uploading a radiance transfer texture"); !s) return s;
+  rtts_.emplace(index, std::move(rtt));
+  return Status::ok();
+}
+
+Status GlPatches::addIdMap(std::uint32_t mesh) {
+  const std::optional<synthesis::IdMap>& map = biScaleOf(mesh).idMap;
+  if (!map) return Status::ok();
+  if (map->width > options_.largestTexture || map->height > options_.largestTexture)
+    return report::failed(fmt::format(
+        "mesh {} '{}': an id map of {}×{} texels, but this OpenGL takes {} a side. Make it "
+        "smaller, or make the picture on the CPU",
+        mesh, asset_->scene.meshes[mesh].name, map->width, map->height, options_.largestTexture));
+  Texture texture = makeTexture(GL_RG16UI, map->width, map->height);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, map->width, map->height, GL_RG_INTEGER,
+                      GL_UNSIGNED_SHORT, map->ids.data());
+  idMaps_.emplace(mesh, std::move(texture));
+  return checkGl("uploading an id map");
+}
+
+Status GlPatches::addProgram(int bands, Encoding encoding) {
+  const ProgramKey key(bands, encoding);
+  if (programs_.contains(key)) return Status::ok();
+  // Place, normal, tangent and texture coordinates are interpolated as well.
+  GLint mostVaryings = 0;
+  glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
+  const bool interpolated = 4 * (groupsOf(bands) + 3) <= mostVaryings;
+  const std::string defines = fmt::format(
+      "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER "
+      "{:d}\n{}"
+      "\n#define LAMBENT_MOST_PROBES {}\n#define LAMBENT_LEAST_COSINE {:#}\n"
+      "#define LAMBENT_LEVEL_BIAS {:#}",
+      groupsOf(bands), interpolated, options_.biScale.filter, numbersDefine(encoding),
+      shade::kMostProbes, shade::kLeastCosine, shade::kLevelBias);
+  const Program::Stage stages[] = {{GL_VERTEX_SHADER,
+                                    "patch.vert.glsl",
+                                    {defines, std::string(shaderSource("patch.vert.glsl"))}},
+                                   {GL_FRAGMENT_SHADER,
+                                    "patch.frag.glsl",
+                                    {defines, std::string(shaderSource("view_square.glsl")),
+                                     std::string(shaderSource("rtt_footprint.glsl")),
+                                     std::string(shaderSource("patch.frag.glsl"))}}};
+  Result<Program> program = Program::make(stages);
+  if (!program) return program.error();
+  programs_.emplace(key, std::move(*program));
+  return Status::ok();
+}
+
+Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
+  const scene::Mesh& mesh = asset_->scene.meshes[index];
+  const EncodedMesh& encoded = asset_->transfer.meshes[index];
+  const EncodedBiScale& biScale = *encoded.biScale;
+  const EncodedRtt& rtt = rttOf(index);
+  if (Status s = addRtt(biScale.rtt); !s) return s;
+  if (Status s = addIdMap(index); !s) return s;
+  if (Status s = addProgram(rtt.bands, rtt.values.encoding); !s) return s;
+
+  const std::size_t perVertex =
+      std::max(sizeof(PatchVertex), shade::rttStride(rtt.bands) * sizeof(float));
+  const std::size_t perTriangle = sizeof(PatchTriangle);
+  if (options_.largestBlock < 4 * std::max(perVertex, perTriangle))
+    return report::failed(fmt::format("this OpenGL's storage buffers of {} bytes are too small",
+                                      options_.largestBlock));
+  std::size_t first = 0;
+  for (const TriangleBatch& batch : splitTriangles(mesh, options_.largestBlock / perVertex,
+                                                   options_.largestBlock / perTriangle)) {
+    const std::size_t count = batch.corners.size() / 3;
+    Draw draw;
+    draw.mesh = index;
+    draw.vertices = makeBuffer(gatherVertices(mesh, biScale, batch));
+    draw.triangles = makeBuffer(gatherTriangles(mesh, biScale, first, count));
+    draw.corners = makeBuffer(batch.corners);
+    draw.cornerCount = int(batch.corners.size());
+    if (Status s = checkGl("uploading a mesh"); !s) return s;
+    Result<Buffer> light = transfer.incident(encoded, batch.vertices, rtt.bands,
+                                             rtts_.at(biScale.rtt).scales, options_.biScale.macro);
+    if (!light) return light.error();
+    draw.light = std::move(*light);
+    draws_.push_back(std::move(draw));
+    first += count;
+  }
+  return Status::ok();
+}
+
+void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
+  for (const Draw& draw : draws_) {
+    const EncodedBiScale& biScale = biScaleOf(draw.mesh);
+    const EncodedRtt& encoded = rttOf(draw.mesh);
+    const Rtt& rtt = rtts_.at(biScale.rtt);
+    const Program& program = programs_.at({encoded.bands, encoded.values.encoding});
+    program.use();
+    program.setMatrix("clipFromWorld", view.clipFromWorld.data());
+    program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
+    program.set("pixelWidth", view.sampleWidth.perMetre, view.sampleWidth.constant);
+    program.set("views", encoded.views);
+    program.set("viewDependent", int(options_.biScale.viewDependent));
+    program.set("hasIdMap", int(biScale.idMap.has_value()));
+    program.set("tiles", biScale.tiles.x(), biScale.tiles.y());
+    program.set("periodsPerMetre", 1.0f / (encoded.size.x() * biScale.scale),
+                1.0f / (encoded.size.y() * biScale.scale));
+    program.set("levelCount", int(rtt.levels.size()));
+    for (std::size_t k = 0; k < rtt.levels.size(); ++k)
+      program.set(fmt::format("levels[{}]", k).c_str(), rtt.levels[k].width, rtt.levels[k].height,
+                  rtt.levels[k].first, 0);
+    glBindTextureUnit(0, rtt.texture.name());
+    glBindTextureUnit(1, biScale.idMap ? idMaps_.at(draw.mesh).name() : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, draw.vertices.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, draw.light.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, draw.triangles.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, draw.corners.name());
+    glVertexArrayElementBuffer(vertexArray, draw.corners.name());
+    glDrawElements(GL_TRIANGLES, draw.cornerCount, GL_UNSIGNED_INT, nullptr);
+  }
+}
+
+}  // namespace lambent::render

@@ -1,0 +1,61 @@
+// A mesh with meso-structure after the light was applied at the macro scale, and its evaluation at
+// places of its surface. What exitRadiance and the CPU picture share.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "lambent/encode/encoded_field.h"
+#include "lambent/scene/scene.h"
+#include "lambent/sh/coefficients.h"
+#include "lambent/shade/bi_scale_options.h"
+#include "lambent/shade/patch_place.h"
+#include "lambent/shade/rtt_pyramid.h"
+
+namespace lambent::shade {
+
+/// The pyramids of an asset's textures, each made when it is first asked for.
+class RttPyramids {
+ public:
+  /// Without `filter`, level 0 alone.
+  RttPyramids(const encode::EncodedField& field, bool filter) : field_(field), filter_(filter) {}
+  std::shared_ptr<const RttPyramid> of(int rtt);
+
+ private:
+  const encode::EncodedField& field_;
+  bool filter_;
+  std::map<int, std::shared_ptr<const RttPyramid>> made_;
+};
+
+/// Light as rttStride(bands) numbers a receiver, coefficient after coefficient, each R, G, B: from
+/// [receiver][3][bands²].
+std::vector<float> inRttLayout(const std::vector<float>& light, int bands);
+
+class LitPatch {
+ public:
+  /// Scene and transfer must outlive it, and fit (checkBiScale).
+  LitPatch(const scene::Mesh& mesh, const encode::EncodedMesh& transfer,
+           const encode::EncodedField& field, std::shared_ptr<const RttPyramid> pyramid,
+           const sh::RgbCoefficients& light, const BiScaleOptions& options);
+
+  /// Exit radiance (eq. 4) of a place of a triangle towards the viewer. `width`: metres that the
+  /// sub-sample sees across its ray.
+  Rgb at(std::uint32_t triangle, float u, float v, const scene::SurfacePoint& point,
+         const Vec3& toViewer, float width) const;
+  /// … of a receiver, at the nearest position of the patch.
+  Rgb atReceiver(std::uint32_t receiver, const Vec3& toViewer) const;
+
+ private:
+  const scene::Mesh& mesh_;
+  const encode::EncodedMesh& transfer_;
+  const encode::EncodedBiScale& biScale_;
+  Vec2 rttSize_;
+  std::shared_ptr<const RttPyramid> pyramid_;
+  BiScaleOptions options_;
+  std::vector<float> light_;              ///< [receiver][rttStride]
+  std::vector<PatchGradient> gradients_;  ///< of triangles, if they are needed
+};
+
+}  // namespace lambent::shade

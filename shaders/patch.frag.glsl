@@ -1,0 +1,213 @@
+// Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L), sloan2003bi eq.
+// 4, as shade::LitPatch. Alpha is coverage.
+//
+// Numbers of a position and view are coefficient after coefficient, each R, G, B, in groups of
+// four: RGBR GBRG BRGB … So three sums of every third group hold each channel in known places.
+//
+// Before this text stand: #define LAMBENT_GROUPS and LAMBENT_INTERPOLATED as in patch.vert.glsl;
+// LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the light holds already);
+// LAMBENT_FILTER 0 or 1 and, if 1, rtt_footprint.glsl; view_square.glsl.
+
+struct Vertex {
+  vec4 positionU;
+  vec4 normalV;
+  vec4 tangent;
+};
+struct Triangle {
+  vec4 normal;               // by its winding, not unit
+  vec4 gradientX, gradientY;  // of q along the surface
+};
+
+layout(std430, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
+#if !LAMBENT_INTERPOLATED
+layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
+layout(std430, binding = 1) readonly buffer Light { vec4 light[]; };
+layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };
+#endif
+
+layout(binding = 0) uniform usamplerBuffer rtt;  // [level][y][x][view y][view x][group]
+layout(binding = 1) uniform usampler2D idMap;
+
+uniform vec4 eye;         // position, 1; or, for an orthographic camera, direction to the viewer, 0
+uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of distance, and anyway
+uniform int views;
+uniform bool viewDependent, hasIdMap;
+uniform vec2 tiles;            // without an id map: q = tiles (u, −v)
+uniform vec2 periodsPerMetre;  // with one
+uniform int levelCount;
+uniform ivec4 levels[16];  // width, height, first position
+
+in vec3 position;
+in vec4 normalU;
+in vec4 tangentV;
+#if LAMBENT_INTERPOLATED
+in vec4 incident[LAMBENT_GROUPS];
+#else
+vec4 incident[LAMBENT_GROUPS];
+
+// The light at this place of its triangle.
+void interpolate() {
+  uvec3 corner = uvec3(corners[3 * gl_PrimitiveID], corners[3 * gl_PrimitiveID + 1],
+                       corners[3 * gl_PrimitiveID + 2]);
+  vec3 a = vertices[corner.x].positionU.xyz;
+  vec3 e1 = vertices[corner.y].positionU.xyz - a, e2 = vertices[corner.z].positionU.xyz - a;
+  vec3 n = cross(e1, e2);
+  float u = dot(cross(e2, n), position - a) / dot(n, n);
+  float v = dot(cross(n, e1), position - a) / dot(n, n);
+  for (int i = 0; i < LAMBENT_GROUPS; ++i)
+    incident[i] = (1.0 - u - v) * light[int(corner.x) * LAMBENT_GROUPS + i] +
+                  u * light[int(corner.y) * LAMBENT_GROUPS + i] +
+                  v * light[int(corner.z) * LAMBENT_GROUPS + i];
+}
+#endif
+
+layout(location = 0) out vec4 radiance;
+
+#if LAMBENT_NUMBERS == 2
+const int kGroupsAFetch = 4;
+vec4 group(uvec4 words, int i) { return unpackSnorm4x8(words[i]); }
+#elif LAMBENT_NUMBERS == 1
+const int kGroupsAFetch = 2;
+vec4 group(uvec4 words, int i) {
+  return vec4(unpackHalf2x16(words[2 * i]), unpackHalf2x16(words[2 * i + 1]));
+}
+#else
+const int kGroupsAFetch = 1;
+vec4 group(uvec4 words, int i) { return uintBitsToFloat(words); }
+#endif
+const int kFetches = (LAMBENT_GROUPS + kGroupsAFetch - 1) / kGroupsAFetch;
+
+// The response of one position, seen from one view, to the light that arrives here.
+vec3 response(int place) {
+  vec4 sum[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+  for (int f = 0; f < kFetches; ++f) {
+    uvec4 words = texelFetch(rtt, place * kFetches + f);
+    for (int i = 0; i < kGroupsAFetch; ++i) {
+      int at = f * kGroupsAFetch + i;
+      if (at < LAMBENT_GROUPS) sum[at % 3] += group(words, i) * incident[at];
+    }
+  }
+  return vec3(sum[0].x + sum[0].w + sum[1].z + sum[2].y, sum[0].y + sum[1].x + sum[1].w + sum[2].z,
+              sum[0].z + sum[1].y + sum[2].x + sum[2].w);
+}
+
+// The views around the direction, as shade::viewsAround.
+ivec2 lowView, highView;
+vec2 highShare;
+
+void chooseViews(vec3 toViewer) {
+  vec2 at = squareFromHemisphere(vec3(toViewer.xy, max(0.0, toViewer.z))) * float(views) - 0.5;
+  at = clamp(at, 0.0, float(views - 1));
+  lowView = ivec2(at);
+  highView = min(lowView + 1, views - 1);
+  highShare = at - vec2(lowView);
+}
+
+// The response of one position to the light, between the views.
+vec3 seen(int first, int place) {
+  int begin = (first + place) * views * views;
+  vec3 sum = vec3(0.0);
+  for (int v = 0; v < 4; ++v) {
+    bvec2 high = bvec2(v & 1, v & 2);
+    vec2 share = mix(1.0 - highShare, highShare, high);
+    if (share.x * share.y == 0.0) continue;
+    ivec2 view = ivec2(high.x ? highView.x : lowView.x, high.y ? highView.y : lowView.y);
+    sum += share.x * share.y * response(begin + view.y * views + view.x);
+  }
+  return sum;
+}
+
+vec3 nearest(vec2 q) {
+  ivec4 level = levels[0];
+  ivec2 at = min(ivec2(q * vec2(level.xy)), level.xy - 1);
+  return seen(level.z, at.y * level.x + at.x);
+}
+
+#if LAMBENT_FILTER
+// As shade::respond.
+vec3 filtered(vec2 q, Probes probes) {
+  float depth = min(probes.level, float(levelCount - 1));
+  int finer = int(depth), coarser = min(finer + 1, levelCount - 1);
+  float mixed = depth - float(finer);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < probes.count; ++i) {
+    vec2 at = fract(q + (float(i) - 0.5 * float(probes.count - 1)) * probes.stride);
+    for (int which = 0; which < 2; ++which) {
+      float share = which == 0 ? 1.0 - mixed : mixed;
+      if (share == 0.0) continue;
+      int k = which == 0 ? finer : coarser;
+      ivec4 level = levels[k];
+      // Level 0 at the nearest position: the one whose cell the place lies in.
+      vec2 cell = at * vec2(level.xy) - (k == 0 ? 0.0 : 0.5);
+      vec2 low = floor(cell), high = k == 0 ? vec2(0.0) : cell - low;
+      for (int corner = 0; corner < 4; ++corner) {
+        ivec2 right = ivec2(corner & 1, corner >> 1);
+        vec2 part = mix(1.0 - high, high, bvec2(right));
+        if (part.x * part.y == 0.0) continue;
+        ivec2 place = (ivec2(low) + right + level.xy) % level.xy;
+        sum += share * part.x * part.y * seen(level.z, place.y * level.x + place.x);
+      }
+    }
+  }
+  return sum / float(probes.count);
+}
+#endif
+
+vec2 patchPlace(vec2 uv) {
+  if (hasIdMap) {
+    ivec2 size = textureSize(idMap, 0);
+    ivec2 texel = ivec2(clamp(floor(uv * vec2(size)), vec2(0.0), vec2(size - 1)));
+    return vec2(texelFetch(idMap, texel, 0).rg) / 65536.0;
+  }
+  return fract(tiles * vec2(uv.x, -uv.y));
+}
+
+// As shade::worldFromPatch.
+mat3 worldFromPatch(vec3 normal, vec3 tangent) {
+  vec3 along = tangent - dot(normal, tangent) * normal;
+  float across = length(along);
+  if (across > 1e-6) {
+    along /= across;
+  } else {
+    float sign = normal.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (sign + normal.z);
+    along = vec3(1.0 + sign * normal.x * normal.x * a, sign * normal.x * normal.y * a,
+                 -sign * normal.x);
+  }
+  return mat3(along, cross(normal, along), normal);
+}
+
+void main() {
+  radiance = vec4(0.0, 0.0, 0.0, 1.0);
+  if (!gl_FrontFacing) return;
+#if !LAMBENT_INTERPOLATED
+  interpolate();
+#endif
+  Triangle triangle = triangles[gl_PrimitiveID];
+  vec3 front = normalize(triangle.normal.xyz);
+  vec3 normal = normalU.xyz;
+  normal = dot(normal, normal) > 1e-30 ? normalize(normal) : front;
+  float side = dot(normal, front);
+  if (side < 0.0) normal = normalize(normal - 2.0 * side * front);  // as scene::surfaceAt
+  mat3 frame = worldFromPatch(normal, tangentV.xyz);
+  vec3 away = eye.xyz - position;
+  float distance = length(away);
+  vec3 toViewer = (eye.w > 0.0 ? away / distance : eye.xyz) * frame;
+  chooseViews(viewDependent ? toViewer : vec3(0.0, 0.0, 1.0));
+
+  vec2 q = patchPlace(vec2(normalU.w, tangentV.w));
+#if LAMBENT_FILTER
+  vec3 longer, shorter;
+  footprintAxes(frame, toViewer, pixelWidth.x * distance + pixelWidth.y, longer, shorter);
+  vec3 x = triangle.gradientX.xyz, y = triangle.gradientY.xyz;
+  if (hasIdMap) {
+    x = frame[0] * periodsPerMetre.x;
+    y = frame[1] * periodsPerMetre.y;
+  }
+  radiance.rgb = filtered(q, probesOf(vec2(dot(x, longer), dot(y, longer)),
+                                      vec2(dot(x, shorter), dot(y, shorter)),
+                                      vec2(levels[0].xy)));
+#else
+  radiance.rgb = nearest(q);
+#endif
+}

@@ -1,0 +1,34 @@
+// A surface with meso-structure: vertices are pulled from buffers by their index. What the
+// rasteriser interpolates is the light that arrives at the meso-structure, M L (sloan2003bi §5).
+//
+// Before this text stand: #define LAMBENT_GROUPS, the light's numbers in groups of four, and
+// LAMBENT_INTERPOLATED 1, or 0 where the rasteriser does not take as many.
+
+struct Vertex {
+  vec4 positionU;
+  vec4 normalV;
+  vec4 tangent;
+};
+
+layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
+layout(std430, binding = 1) readonly buffer Light { vec4 light[]; };  // [vertex][LAMBENT_GROUPS]
+
+uniform mat4 clipFromWorld;
+
+out vec3 position;
+out vec4 normalU;
+out vec4 tangentV;
+#if LAMBENT_INTERPOLATED
+out vec4 incident[LAMBENT_GROUPS];
+#endif
+
+void main() {
+  Vertex vertex = vertices[gl_VertexID];
+  position = vertex.positionU.xyz;
+  normalU = vec4(vertex.normalV.xyz, vertex.positionU.w);
+  tangentV = vec4(vertex.tangent.xyz, vertex.normalV.w);
+#if LAMBENT_INTERPOLATED
+  for (int i = 0; i < LAMBENT_GROUPS; ++i) incident[i] = light[gl_VertexID * LAMBENT_GROUPS + i];
+#endif
+  gl_Position = clipFromWorld * vec4(position, 1.0);
+}
