@@ -9,6 +9,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/scene_arguments.h"
+#include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
 #include "lambent/encode/encoded_field.h"
@@ -22,8 +23,8 @@ namespace {
 struct BakeArguments {
   SceneArguments scene;
   std::filesystem::path output;
-  transport::BakeOptions options;
-  std::string transfer = "interreflected", encoding = "float16";
+  TransferArguments transfer;
+  std::string encoding = "float16";
   std::vector<std::string> texels;  ///< MESH=WxH, or WxH for every mesh with UVs
 };
 
@@ -39,12 +40,6 @@ constexpr std::string_view kExamples = R"(Examples:
   lambent bake ring.gltf -o ring.glb --texels ground=256x256
       The mesh "ground" is baked on a grid over its UVs: caustics finer than its vertices.
 )";
-
-Result<transport::TransferKind> parseTransfer(const std::string& name) {
-  if (name == "unshadowed") return transport::TransferKind::Unshadowed;
-  if (name == "shadowed") return transport::TransferKind::Shadowed;
-  return transport::TransferKind::Interreflected;
-}
 
 /// "ground=256x256" names a mesh by name or number; "256x256" means every mesh with UVs.
 Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::string>& texts,
@@ -84,12 +79,10 @@ Status runBake(BakeArguments arguments, Console& console) {
   auto scene = arguments.scene.load(console);
   if (!scene) return scene.error();
 
-  transport::BakeOptions& options = arguments.options;
+  transport::BakeOptions options = arguments.transfer.chosen(console);
   auto grids = resolveTexels(arguments.texels, *scene);
   if (!grids) return grids.error();
   options.texels = *grids;
-  options.kind = *parseTransfer(arguments.transfer);
-  options.threads = console.options().threads;
 
   // Without bounces there is no room for a slipped ray's light to gather in.
   const trace::Edges edges = options.kind == transport::TransferKind::Interreflected
@@ -156,17 +149,12 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       "bake", "Simulate once how light moves over a scene, and write an asset to relight");
   app->group("Verbs");
   app->footer(std::string(kExamples));
-  transport::BakeOptions& options = arguments->options;
+  transport::BakeOptions& options = arguments->transfer.options;
   arguments->scene.addTo(*app);
   app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
       ->option_text("ASSET.glb")
       ->required();
-  app->add_option("--transfer", arguments->transfer,
-                  "unshadowed, shadowed, or interreflected (shadows and bounces)")
-      ->check(CLI::IsMember({"unshadowed", "shadowed", "interreflected"}))
-      ->option_text("KIND")
-      ->capture_default_str()
-      ->group("Transfer");
+  arguments->transfer.addTo(*app);
   app->add_option("--bands", options.bands,
                   "Bands of the light that will relight it, 1 to 10: 3 for overcast skies, 5 for "
                   "soft shadows, more for smaller lights")
@@ -180,25 +168,6 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");
-  app->add_option("--directions", options.directions,
-                  "Directions over the whole sphere, the same for every receiver. Twice as many: "
-                  "twice the time, and a smaller error")
-      ->check(CLI::Range(16, 65536))
-      ->option_text("N")
-      ->capture_default_str()
-      ->group("Transfer");
-  app->add_option("--bounces", options.bounces, "Bounces beyond the direct light, at most")
-      ->check(CLI::Range(0, 1000))
-      ->option_text("N")
-      ->capture_default_str()
-      ->group("Transfer");
-  app->add_option("--energy-threshold", options.energyThreshold,
-                  "Stop bouncing when a pass has less than this fraction of the direct light's "
-                  "energy, as in 0.001")
-      ->check(CLI::Range(0.0, 1.0))
-      ->option_text("FRACTION")
-      ->capture_default_str()
-      ->group("Transfer");
   app->add_option("--texels", arguments->texels,
                   "Bake a mesh on a grid over its UVs instead of at its vertices; without MESH: "
                   "every mesh with UVs. May be given several times")
@@ -210,21 +179,10 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
         return size ? "" : size.error().message;
       })
       ->group("Transfer");
-  app->add_option("--seed", options.seed,
-                  "Turns the set of directions: two seeds err independently")
-      ->option_text("N")
-      ->capture_default_str()
-      ->group("Transfer");
   app->add_option("--encoding", arguments->encoding, "float16, or float32 for exact round trips")
       ->check(CLI::IsMember({"float16", "float32"}))
       ->option_text("KIND")
       ->capture_default_str()
-      ->group("Output");
-  app->add_option("--hit-memory", options.hitMemory,
-                  "Memory for remembered hits, as in 2GB; what does not fit is cast again")
-      ->transform(CLI::AsSizeValue(false))
-      ->option_text("SIZE")
-      ->default_str("3GiB")
       ->group("Output");
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runBake(*arguments, console); }};

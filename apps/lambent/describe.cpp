@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lambent/asset/names.h"
+#include "lambent/asset/summary.h"
 #include "lambent/radiometry/tone.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
@@ -89,7 +91,7 @@ std::string_view nameOf(transport::Layout layout) {
 }
 
 std::string_view nameOf(encode::Encoding encoding) {
-  return encoding == encode::Encoding::Float16 ? "float16" : "float32";
+  return asset::nameOf(encoding);
 }
 
 Description describe(const scene::Scene& scene) {
@@ -147,6 +149,39 @@ Description describe(const scene::Scene& scene) {
   return d;
 }
 
+namespace {
+
+Description describe(const encode::EncodedBiScale& biScale, std::size_t receivers) {
+  const std::string matrices = !biScale.interreflected.empty() && !biScale.shadowed.empty()
+                                   ? "shadowed and interreflected matrices"
+                               : !biScale.interreflected.empty() ? "interreflected matrices"
+                               : !biScale.shadowed.empty()       ? "shadowed matrices"
+                                                                 : "no matrices";
+  const encode::Numbers& any =
+      biScale.interreflected.empty() ? biScale.shadowed : biScale.interreflected;
+  const std::string where =
+      biScale.idMap
+          ? fmt::format("id map {}x{}", biScale.idMap->width, biScale.idMap->height)
+          : fmt::format("{:.4g}x{:.4g} tiles of its UVs", biScale.tiles.x(), biScale.tiles.y());
+  Description d;
+  d.text = fmt::format("bi-scale, {} vertices, {}, {} of {} bands{}\n", formatCount(receivers),
+                       where, matrices, biScale.bands,
+                       any.empty() ? "" : fmt::format(", {}", nameOf(any.encoding)));
+  d.json = {{"rtt", biScale.rtt},
+            {"bands", biScale.bands},
+            {"scale", biScale.scale},
+            {"id_map",
+             {biScale.idMap ? biScale.idMap->width : 0, biScale.idMap ? biScale.idMap->height : 0}},
+            {"tiles", {biScale.tiles.x(), biScale.tiles.y()}},
+            {"shadowed", !biScale.shadowed.empty()},
+            {"interreflected", !biScale.interreflected.empty()},
+            {"channels", biScale.channels},
+            {"encoding", nameOf(any.encoding)}};
+  return d;
+}
+
+}  // namespace
+
 Description describe(const encode::EncodedField& transfer, const scene::Scene& scene) {
   Description d;
   d.text = fmt::format("{} transfer for light of {} bands, {} directions, {} bounces, seed {}\n",
@@ -165,6 +200,15 @@ Description describe(const encode::EncodedField& transfer, const scene::Scene& s
     if (mesh.layout == transport::Layout::None) {
       d.text += fmt::format("  {}: a mirror, records no transfer\n", called);
       meshes.push_back({{"name", name}, {"layout", nameOf(mesh.layout)}});
+      continue;
+    }
+    if (mesh.biScale) {
+      const Description biScale = describe(*mesh.biScale, mesh.receiverCount());
+      d.text += fmt::format("  {}: {}", called, biScale.text);
+      Json json = {
+          {"name", name}, {"layout", nameOf(mesh.layout)}, {"receivers", mesh.receiverCount()}};
+      json["bi_scale"] = biScale.json;
+      meshes.push_back(json);
       continue;
     }
     const encode::Numbers& any = mesh.vectors.empty() ? mesh.matrices : mesh.vectors;
@@ -191,13 +235,39 @@ Description describe(const encode::EncodedField& transfer, const scene::Scene& s
                       {"matrix_in_bands", mesh.matrices.empty() ? 0 : mesh.inBands},
                       {"matrix_channels", mesh.matrices.empty() ? 0 : mesh.matrixChannels}});
   }
+  Json rtts = Json::array();
+  for (const encode::EncodedRtt& rtt : transfer.rtts) {
+    const Description one = describe(rtt);
+    d.text += "  " + one.text;
+    rtts.push_back(one.json);
+  }
   d.json = {{"kind", nameOf(transfer.kind)},
             {"bands", transfer.bands},
             {"directions", transfer.directions},
             {"bounces", transfer.bounces},
             {"seed", transfer.seed},
             {"pass_energy", transfer.passEnergy},
-            {"meshes", meshes}};
+            {"meshes", meshes},
+            {"rtts", rtts}};
+  return d;
+}
+
+Description describe(const encode::EncodedRtt& rtt) {
+  const asset::RttSummary summary = asset::summarize(rtt);
+  const std::string views =
+      rtt.views > 1 ? fmt::format("{}x{} views", rtt.views, rtt.views) : std::string("no views");
+  Description d;
+  d.text = fmt::format(
+      "patch {}: {}x{} positions, {}, light of {} bands, {:.4g}x{:.4g} m, {:.3g} m "
+      "deep, {}, {}\n",
+      rtt.name.empty() ? "(no name)" : rtt.name, rtt.width, rtt.height, views, rtt.bands,
+      rtt.size.x(), rtt.size.y(), rtt.depth, nameOf(rtt.values.encoding),
+      formatBytes(double(summary.bytes)));
+  d.json = {{"name", rtt.name},      {"width", rtt.width},
+            {"height", rtt.height},  {"views", rtt.views},
+            {"bands", rtt.bands},    {"size", {rtt.size.x(), rtt.size.y()}},
+            {"depth", rtt.depth},    {"encoding", nameOf(rtt.values.encoding)},
+            {"bytes", summary.bytes}};
   return d;
 }
 

@@ -19,6 +19,7 @@ struct Description {
 
 Description describe(const scene::Scene& scene);
 Description describe(const encode::EncodedField& transfer, const scene::Scene& scene);
+Description describe(const encode::EncodedRtt& rtt);
 Description describe(const sh::RgbCoefficients& light);
 Description describe(const image::Image& image);
 

@@ -11,6 +11,7 @@
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
+#include "lambent/asset/rtt_file.h"
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/io.h"
 #include "lambent/light/environment.h"
@@ -24,6 +25,7 @@ namespace {
 constexpr std::string_view kExamples = R"(Examples:
   lambent info model.glb          meshes, materials, cameras, and what is odd in them
   lambent info baked.glb          also: bands, directions, bounces, encoding
+  lambent info weave.rtt          a patch: positions, views, bands, size
   lambent info sky.exr            size, range, and what it is as a light
   lambent info light.json --json  for a script
 )";
@@ -78,6 +80,11 @@ Result<Whole> describeFile(const std::filesystem::path& path, Console& console) 
   const std::string extension = extensionOf(path);
   if (extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".ply")
     return describeModel(path, console);
+  if (extension == ".rtt") {
+    const auto rtt = asset::readRtt(path);
+    if (!rtt) return rtt.error();
+    return Whole{"radiance transfer texture", describe(*rtt)};
+  }
   if (extension == ".exr" || extension == ".hdr" || extension == ".png") return describeImage(path);
   if (extension == ".json") {
     const auto light = light::readLight(path);
@@ -93,7 +100,7 @@ Result<Whole> describeFile(const std::filesystem::path& path, Console& console) 
   }
   return badInput(fmt::format(
       "{}: what ends in '{}' is unknown here; info reads .glb .gltf .obj .ply .exr .hdr .png "
-      ".json .csv",
+      ".json .csv .rtt",
       path.string(), extension));
 }
 

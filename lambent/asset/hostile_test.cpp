@@ -21,9 +21,12 @@ using test::Glb;
 const std::string kName(kExtensionName);
 
 class AssetHostile : public ::testing::Test {
+ public:
+  explicit AssetHostile(Asset asset = everyLayout()) : asset_(std::move(asset)) {}
+
  protected:
   void SetUp() override {
-    const Status written = write(everyLayout(), folder_ / "good.glb");
+    const Status written = write(asset_, folder_ / "good.glb");
     ASSERT_TRUE(written) << written.error().message;
     good_ = test::bytesOf(folder_ / "good.glb");
   }
@@ -55,6 +58,7 @@ class AssetHostile : public ::testing::Test {
     return document["meshes"][std::size_t(mesh)]["primitives"][0]["extensions"][kName];
   }
 
+  Asset asset_;
   Folder folder_;
   std::vector<std::byte> good_;
 };
@@ -283,6 +287,49 @@ TEST_F(AssetHostile, JsonTokensSwapped) {
     if (asset) continue;
     EXPECT_FALSE(asset.error().message.empty());
   }
+}
+
+class BiScaleHostile : public AssetHostile {
+ public:
+  BiScaleHostile() : AssetHostile(biScale()) {}
+  static json& patch(json& document, int mesh) { return primitive(document, mesh)["biScale"]; }
+};
+
+TEST_F(BiScaleHostile, Members) {
+  EXPECT_TRUE(readChanged([](json&) {}));
+  expectRefused("rtt is 1, and the asset has 1", [](json& d) { patch(d, 0)["rtt"] = 1; });
+  expectRefused("rtt: is not an integer", [](json& d) { patch(d, 0)["rtt"] = -1; });
+  expectRefused("scale must be", [](json& d) { patch(d, 0)["scale"] = 0; });
+  expectRefused("tangents: is missing", [](json& d) { patch(d, 0).erase("tangents"); });
+  expectRefused("shadowed: 324 numbers where", [](json& d) { patch(d, 0)["bands"] = 2; });
+  expectRefused("takes light of 3 bands", [](json& d) { root(d)["bands"] = 2; });
+  expectRefused("idMap: 8 numbers for 3×2 texels",
+                [](json& d) { patch(d, 0)["idMap"]["width"] = 3; });
+  expectRefused("idMap.height: is not an integer",
+                [](json& d) { patch(d, 0)["idMap"]["height"] = 100000; });
+  expectRefused("tiles: is not an array of 2", [](json& d) { patch(d, 1)["tiles"] = {1, 2, 3}; });
+  expectRefused("tangent 0 is not", [](json& d) {
+    patch(d, 0)["tangents"] = d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
+  });
+  asset_.transfer.meshes[0].bands = 3;
+  asset_.transfer.meshes[0].channels = 1;
+  asset_.transfer.meshes[0].vectors =
+      encode::encode(std::vector<float>(36, 0.5f), encode::Encoding::Float32);
+  const Status both = write(asset_, folder_ / "both.glb");
+  ASSERT_FALSE(both);
+  EXPECT_NE(both.error().message.find("no vectors or matrices beside it"), std::string::npos);
+}
+
+TEST_F(BiScaleHostile, Rtts) {
+  const auto rtt = [](json& d) -> json& { return root(d)["rtts"][0]; };
+  expectRefused("rtts: is not an array", [](json& d) { root(d)["rtts"] = 5; });
+  expectRefused("width: is not an integer from 1", [&](json& d) { rtt(d)["width"] = 0; });
+  expectRefused("views: is not an integer", [&](json& d) { rtt(d)["views"] = 65; });
+  expectRefused("numbers where", [&](json& d) { rtt(d)["views"] = 3; });
+  expectRefused("size is not two", [&](json& d) { rtt(d)["size"] = {1, -1}; });
+  expectRefused("size: is not an array of 2", [&](json& d) { rtt(d)["size"] = {1}; });
+  expectRefused("values.scales: is missing", [&](json& d) { rtt(d)["values"].erase("scales"); });
+  expectRefused("encoding: is none of", [&](json& d) { rtt(d)["values"]["encoding"] = "int4"; });
 }
 
 }  // namespace

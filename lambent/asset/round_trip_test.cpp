@@ -7,6 +7,7 @@
 #include "lambent/asset/check.h"
 #include "lambent/asset/samples.h"
 #include "lambent/asset/test_support.h"
+#include "lambent/sh/rotation.h"
 
 namespace lambent::asset {
 namespace {
@@ -253,6 +254,27 @@ TEST(IsAsset, TellsAssetsFromOtherFiles) {
     EXPECT_FALSE(*answer);
   }
   EXPECT_EQ(isAsset(folder / "missing.glb").error().kind, ErrorKind::BadInput);
+}
+
+TEST(AssetRoundTrip, BiScaleInEveryEncoding) {
+  for (const Encoding encoding : {Encoding::Float16, Encoding::Float32, Encoding::Snorm8}) {
+    Asset asset = biScale();
+    asset.transfer.rtts[0] = encode::encode(decode(asset.transfer.rtts[0]), encoding);
+    encode::EncodedBiScale& patch = *asset.transfer.meshes[0].biScale;
+    patch.channels = 3;
+    patch.interreflected = encode::encode(randomNumbers(4 * 3 * 81, 5), encoding, 81);
+    patch.shadowed = encode::encode(decode(patch.shadowed), encoding, 81);
+    test::expectSame(throughFile(asset), asset);
+  }
+}
+
+TEST(AssetRoundTrip, TheSamplesRotationIsTheHarmonics) {
+  Mat3d tangentFromWorld;  // rows: T = +x, N × T = −z, N = +y
+  tangentFromWorld << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const std::vector<double> rotation = sh::rotationMatrix(3, tangentFromWorld);
+  const std::vector<float> stored = decode(biScale().transfer.meshes[0].biScale->shadowed);
+  for (std::size_t k = 0; k < stored.size(); ++k)
+    EXPECT_NEAR(stored[k], rotation[k % 81], 5e-4) << k;
 }
 
 }  // namespace

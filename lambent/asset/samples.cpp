@@ -166,8 +166,65 @@ Asset everyLayout() {
   return asset;
 }
 
+Asset biScale() {
+  Asset asset;
+  asset.scene.materials = {grey("patch")};
+  asset.scene.meshes = {square("with an id map", 0, {0, 0, 0}), square("by its UVs", 0, {3, 0, 0})};
+  asset.transfer = statement();
+  asset.transfer.kind = transport::TransferKind::Shadowed;
+  asset.transfer.directions = 1024;
+
+  // Flat stripes: B_i = ρ/π Â_l y_i(+z), with a reflectance for each position and a view that is
+  // half as bright as the others.
+  meso::RadianceTransferTexture rtt;
+  rtt.name = "stripes";
+  rtt.width = 4, rtt.height = 2, rtt.views = 2, rtt.bands = 3;
+  rtt.size = Vec2(0.5f, 0.25f);
+  const std::vector<float> flat = unoccluded(Rgb::Ones(), 1, Vec3(0, 0, 1));
+  for (int i = 0; i < 9; ++i)
+    for (int y = 0; y < 2; ++y)
+      for (int x = 0; x < 4; ++x)
+        for (int view = 0; view < 4; ++view)
+          for (int c = 0; c < 3; ++c)
+            rtt.values.push_back(0.25f * float(1 + (x + y + c) % 4) * (view == 3 ? 0.5f : 1.0f) *
+                                 flat[std::size_t(i)]);
+  asset.transfer.rtts = {encode::encode(rtt, Encoding::Snorm8)};
+
+  // T = +x, N × T = −z, N = +y: the rotation of three bands into that frame, by hand. Band 1 is
+  // (y, z, x): the frame's (y', z', x') = (−z, y, x).
+  const double s = std::sqrt(3.0) / 2.0;
+  const double rotation[9][9] = {{1, 0, 0, 0, 0, 0, 0, 0, 0},     {0, 0, -1, 0, 0, 0, 0, 0, 0},
+                                 {0, 1, 0, 0, 0, 0, 0, 0, 0},     {0, 0, 0, 1, 0, 0, 0, 0, 0},
+                                 {0, 0, 0, 0, 0, 0, 0, -1, 0},    {0, 0, 0, 0, 0, -1, 0, 0, 0},
+                                 {0, 0, 0, 0, 0, 0, -0.5, 0, -s}, {0, 0, 0, 0, 1, 0, 0, 0, 0},
+                                 {0, 0, 0, 0, 0, 0, -s, 0, 0.5}};
+  for (int mesh = 0; mesh < 2; ++mesh) {
+    encode::EncodedMesh& transfer =
+        asset.transfer.meshes.emplace_back(atVertices(asset.scene.meshes[std::size_t(mesh)]));
+    encode::EncodedBiScale& patch = transfer.biScale.emplace();
+    patch.bands = 3;
+    patch.scale = 2.0f;
+    patch.tangents.assign(4, Vec3(1, 0, 0));
+    if (mesh == 1) {
+      patch.tiles = Vec2(3, 3);
+      continue;
+    }
+    synthesis::IdMap& map = patch.idMap.emplace();
+    map.width = map.height = 2;
+    map.ids = {0, 0, 16384, 0, 0, 32768, 65535, 65535};
+    std::vector<float> matrices;
+    for (int receiver = 0; receiver < 4; ++receiver)
+      for (const auto& row : rotation)
+        for (const double value : row) matrices.push_back(float(value));
+    patch.shadowed = encode::encode(matrices, Encoding::Float16);
+  }
+  return asset;
+}
+
 std::vector<std::pair<std::string, Asset>> samples() {
-  return {{"unoccluded-square.glb", unoccludedSquare()}, {"every-layout.glb", everyLayout()}};
+  return {{"unoccluded-square.glb", unoccludedSquare()},
+          {"every-layout.glb", everyLayout()},
+          {"bi-scale.glb", biScale()}};
 }
 
 }  // namespace lambent::asset

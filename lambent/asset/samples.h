@@ -19,6 +19,11 @@ Asset unoccludedSquare();
 /// vectors, and a mirror.
 Asset everyLayout();
 
+/// Two squares that carry a patch of stripes, 4×2 positions and 2×2 views, 3 bands, snorm8: one by
+/// an id map of 2×2 texels with shadowed matrices (float16), which are the rotation into the
+/// tangent frame; one by its own UVs, without matrices.
+Asset biScale();
+
 /// File name → asset.
 std::vector<std::pair<std::string, Asset>> samples();
 

@@ -58,6 +58,24 @@ TEST(Spec, WhatIsWrittenIsWhatTheSchemaSays) {
   EXPECT_FALSE(document["meshes"][3]["primitives"][0].contains("extensions"));  // the mirror
 }
 
+TEST(Spec, BiScaleIsWhatTheSchemaSays) {
+  const test::Folder folder;
+  ASSERT_TRUE(write(biScale(), folder / "asset.glb"));
+  const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
+  const json root = schema("glTF");
+  expectDescribed(document["extensions"][kName], root, "root");
+  expectDescribed(document["extensions"][kName]["rtts"][0], root["properties"]["rtts"]["items"],
+                  "rtt");
+  const json described = schema("mesh.primitive");
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json& object = document["meshes"][i]["primitives"][0]["extensions"][kName];
+    for (const auto& [key, member] : object["biScale"].items()) {
+      EXPECT_TRUE(described["properties"]["biScale"]["properties"].contains(key)) << key;
+      if (key == "shadowed") expectDescribed(member, described["$defs"]["localMatrices"], key);
+    }
+  }
+}
+
 TEST(Spec, SchemaNamesEveryEnumeration) {
   const json primitives = schema("mesh.primitive");
   const json root = schema("glTF");
@@ -68,6 +86,8 @@ TEST(Spec, SchemaNamesEveryEnumeration) {
   for (const json& name : primitives["properties"]["vectors"]["properties"]["albedo"]["enum"])
     EXPECT_TRUE(albedoNamed(name.get<std::string>())) << name;
   for (const json& name : primitives["$defs"]["encoding"]["enum"])
+    EXPECT_TRUE(encodingNamed(name.get<std::string>())) << name;
+  for (const json& name : primitives["$defs"]["localMatrices"]["properties"]["encoding"]["enum"])
     EXPECT_TRUE(encodingNamed(name.get<std::string>())) << name;
 }
 

@@ -68,6 +68,46 @@ inline void expectSame(const scene::Mesh& a, const scene::Mesh& b) {
   EXPECT_EQ(a.triangles, b.triangles);
 }
 
+inline void expectSame(const encode::Numbers& a, const encode::Numbers& b) {
+  if (!a.empty() || !b.empty()) {
+    EXPECT_EQ(a.encoding, b.encoding);
+  }
+  EXPECT_TRUE(sameBits(a.half, b.half));
+  EXPECT_TRUE(sameBits(a.single, b.single));
+  EXPECT_TRUE(sameBits(a.byte, b.byte));
+  EXPECT_TRUE(sameBits(a.scales, b.scales));
+  EXPECT_EQ(a.block, b.block);
+}
+
+inline void expectSame(const encode::EncodedBiScale& a, const encode::EncodedBiScale& b) {
+  EXPECT_EQ(a.rtt, b.rtt);
+  EXPECT_TRUE(sameBits(a.tangents, b.tangents));
+  ASSERT_EQ(a.idMap.has_value(), b.idMap.has_value());
+  if (a.idMap) {
+    EXPECT_EQ(a.idMap->width, b.idMap->width);
+    EXPECT_EQ(a.idMap->height, b.idMap->height);
+    EXPECT_EQ(a.idMap->ids, b.idMap->ids);
+  } else {
+    EXPECT_EQ(a.tiles, b.tiles);
+  }
+  EXPECT_EQ(a.scale, b.scale);
+  EXPECT_EQ(a.bands, b.bands);
+  EXPECT_EQ(a.channels, b.channels);
+  expectSame(a.shadowed, b.shadowed);
+  expectSame(a.interreflected, b.interreflected);
+}
+
+inline void expectSame(const encode::EncodedRtt& a, const encode::EncodedRtt& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  EXPECT_EQ(a.views, b.views);
+  EXPECT_EQ(a.bands, b.bands);
+  EXPECT_EQ(a.size, b.size);
+  EXPECT_EQ(a.depth, b.depth);
+  expectSame(a.values, b.values);
+}
+
 inline void expectSame(const encode::EncodedMesh& a, const encode::EncodedMesh& b) {
   EXPECT_EQ(a.layout, b.layout);
   EXPECT_EQ(a.width, b.width);
@@ -83,17 +123,16 @@ inline void expectSame(const encode::EncodedMesh& a, const encode::EncodedMesh& 
   EXPECT_EQ(a.matrixChannels, b.matrixChannels);
   EXPECT_TRUE((a.glossy == b.glossy).all());
   EXPECT_EQ(a.lobeExponent, b.lobeExponent);
-  for (const auto& [x, y] :
-       {std::pair(&a.vectors, &b.vectors), std::pair(&a.matrices, &b.matrices)}) {
-    if (!x->empty() || !y->empty()) {
-      EXPECT_EQ(x->encoding, y->encoding);
-    }
-    EXPECT_TRUE(sameBits(x->half, y->half));
-    EXPECT_TRUE(sameBits(x->single, y->single));
-  }
+  expectSame(a.vectors, b.vectors);
+  expectSame(a.matrices, b.matrices);
+  ASSERT_EQ(a.biScale.has_value(), b.biScale.has_value());
+  if (a.biScale) expectSame(*a.biScale, *b.biScale);
 }
 
 inline void expectSame(const Asset& a, const Asset& b) {
+  ASSERT_EQ(a.transfer.rtts.size(), b.transfer.rtts.size());
+  for (std::size_t i = 0; i < a.transfer.rtts.size(); ++i)
+    expectSame(a.transfer.rtts[i], b.transfer.rtts[i]);
   ASSERT_EQ(a.scene.meshes.size(), b.scene.meshes.size());
   for (std::size_t i = 0; i < a.scene.meshes.size(); ++i)
     expectSame(a.scene.meshes[i], b.scene.meshes[i]);

@@ -14,7 +14,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const NAME = 'LAMBENT_radiance_transfer';
-const BYTES = { 5121: 1, 5123: 2, 5126: 4 };
+const BYTES = { 5120: 1, 5121: 1, 5123: 2, 5126: 4 };
 
 const args = process.argv.slice(2);
 let modules = here;
@@ -89,9 +89,17 @@ async function elsewhere(document, bytes, complain) {
     else if (accessor.getArray().BYTES_PER_ELEMENT !== BYTES[componentType])
       complain(`glTF-Transform: ${place}: accessor ${index} came in another type`);
   };
-  const component = { float16: 5123, float32: 5126 };
+  const component = { float16: 5123, float32: 5126, snorm8: 5120 };
+  const expectNumbers = (place, numbers, count, scales) => {
+    expect(place, numbers.accessor, component[numbers.encoding], 'SCALAR', count);
+    if (numbers.encoding === 'snorm8') expect(`${place}/scales`, numbers.scales, 5126, 'SCALAR', scales);
+  };
+  const rtts = document.extensions[NAME].rtts ?? [];
+  for (const [i, rtt] of rtts.entries())
+    expectNumbers(`/extensions/${NAME}/rtts/${i}`, rtt.values,
+      rtt.bands ** 2 * rtt.width * rtt.height * rtt.views ** 2 * 3, rtt.bands ** 2);
   for (const { primitive, object, place } of primitivesOf(document)) {
-    const { grid, vectors, matrices } = object;
+    const { grid, vectors, matrices, biScale } = object;
     const receivers = grid
       ? grid.width * grid.height
       : document.accessors[primitive.attributes.POSITION].count;
@@ -101,6 +109,19 @@ async function elsewhere(document, bytes, complain) {
     if (matrices)
       expect(`${place}/matrices`, matrices.accessor, component[matrices.encoding], 'SCALAR',
         receivers * matrices.channels * matrices.outBands ** 2 * matrices.inBands ** 2);
+    if (biScale) {
+      if (!rtts[biScale.rtt]) complain(`${place}/biScale: there is no rtt ${biScale.rtt}`);
+      expect(`${place}/biScale/tangents`, biScale.tangents, 5126, 'VEC3', receivers);
+      const { idMap, shadowed, interreflected } = biScale;
+      if (idMap)
+        expect(`${place}/biScale/idMap`, idMap.accessor, 5123, 'SCALAR', 2 * idMap.width * idMap.height);
+      const matrix = biScale.bands ** 4;
+      if (shadowed)
+        expectNumbers(`${place}/biScale/shadowed`, shadowed, receivers * matrix, receivers);
+      if (interreflected)
+        expectNumbers(`${place}/biScale/interreflected`, interreflected,
+          receivers * interreflected.channels * matrix, receivers * interreflected.channels);
+    }
     if (grid) {
       expect(`${place}/grid/positions`, grid.positions, 5126, 'VEC3', receivers);
       expect(`${place}/grid/normals`, grid.normals, 5126, 'VEC3', receivers);

@@ -1,0 +1,17 @@
+// A picture of an atlas for a person: its charts, and beside them where the patch stands.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "lambent/asset/asset.h"
+#include "lambent/report/result.h"
+#include "lambent/synthesis/atlas.h"
+
+namespace lambent::tool {
+
+/// Left: a colour for each chart. Right: the id map, q as red and green, dilated texels darker.
+Status writeAtlasPicture(const synthesis::Atlas& atlas, const asset::Asset& asset,
+                         std::uint32_t mesh, const std::filesystem::path& path);
+
+}  // namespace lambent::tool

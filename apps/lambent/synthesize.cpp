@@ -1,0 +1,286 @@
+// lambent synthesize SCENE --rtt PATCH.rtt -o ASSET.glb
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/atlas_picture.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/scene_arguments.h"
+#include "apps/lambent/transfer_arguments.h"
+#include "apps/lambent/verbs.h"
+#include "lambent/asset/asset.h"
+#include "lambent/asset/rtt_file.h"
+#include "lambent/bi_scale/spread_patch.h"
+#include "lambent/meso/albedo.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct Arguments {
+  SceneArguments scene;
+  TransferArguments transfer;
+  std::filesystem::path rtt, output, atlasPicture;
+  std::vector<std::string> meshes;
+  std::string map = "synthesized", encoding = "snorm8", tiles;
+  bi_scale::SpreadOptions options;
+  std::optional<Vec3> direction;
+};
+
+constexpr std::string_view kExamples = R"(Examples:
+  lambent rtt weave -o weave.rtt
+  lambent synthesize bunny.obj --rtt weave.rtt -o bunny.glb
+      The weave over the whole bunny, with shadows and two bounces at the macro-scale.
+  lambent synthesize bunny.obj --rtt stucco.rtt -o rough.glb --patch-width 0.3 --transfer shadowed
+      A patch as wide as 0.3 units of the model.
+  lambent synthesize bird.glb --rtt scales.rtt -o bird.glb --direction 0,0,1 --atlas-picture a.png
+      The patch's +x follows +z; a picture of the charts and of where the patch stands.
+  lambent synthesize vase.glb --rtt flower.rtt -o vase2.glb --map uv --tiles 8x4
+      No synthesis: the vase's own UVs repeat the patch.
+  lambent render bunny.glb --light sky.exr -o a.png --macro off
+      What the macro-scale brings: without it the bunny glows.
+)";
+
+Result<std::vector<std::uint32_t>> chosenMeshes(const Arguments& arguments,
+                                                const scene::Scene& scene) {
+  std::vector<std::uint32_t> chosen;
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    const bool isGround = arguments.scene.ground && m + 1 == scene.meshes.size();
+    const bool mirror = scene.materials[std::size_t(scene.meshes[m].material)].isMirror();
+    if (arguments.meshes.empty() && !mirror && !isGround) chosen.push_back(m);
+  }
+  for (const std::string& wanted : arguments.meshes) {
+    const std::size_t before = chosen.size();
+    std::string names;
+    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+      const std::string& name = scene.meshes[m].name;
+      if (name == wanted || std::to_string(m) == wanted) chosen.push_back(m);
+      names += (names.empty() ? "" : ", ") + (name.empty() ? std::to_string(m) : name);
+    }
+    if (chosen.size() == before)
+      return badUsage(fmt::format("--mesh {}: there is no such mesh; there are {}", wanted, names));
+  }
+  if (chosen.empty())
+    return badInput(arguments.scene.path.string() +
+                    ": every mesh is a mirror: there is nothing to spread the patch over");
+  return chosen;
+}
+
+std::string reportText(const bi_scale::SpreadReport& r) {
+  std::string text = fmt::format("  {}: {:.1f} patches, each {:.4g} wide, at {} vertices\n",
+                                 r.name.empty() ? "mesh " + std::to_string(r.mesh) : r.name,
+                                 r.patches, double(r.patchWidth), formatCount(r.vertices));
+  if (r.mesoVertices > 0) {
+    text += fmt::format("    {} meso-vertices, {} singularities of the tangent field\n",
+                        formatCount(r.mesoVertices), r.singularities);
+    text += fmt::format(
+        "    atlas: {} charts{}, stretch {:.3f} (worst chart {:.3f}), {:.0f}% of "
+        "the map in use\n",
+        r.charts, r.ownUvs ? " (the mesh's own UVs)" : "", r.stretch, r.worstStretch,
+        100.0 * r.usedArea);
+  }
+  if (r.matrixError > 0.0)
+    text += fmt::format("    encoding the matrices costs {:.2g}% (relative RMS)\n",
+                        100.0 * r.matrixError);
+  return text;
+}
+
+Json asJson(const bi_scale::SpreadReport& r) {
+  return {{"mesh", r.mesh},
+          {"name", r.name},
+          {"area", r.area},
+          {"patches", r.patches},
+          {"patch_width", r.patchWidth},
+          {"vertices", r.vertices},
+          {"meso_vertices", r.mesoVertices},
+          {"singularities", r.singularities},
+          {"charts", r.charts},
+          {"stretch", r.stretch},
+          {"worst_stretch", r.worstStretch},
+          {"used_area", r.usedArea},
+          {"own_uvs", r.ownUvs},
+          {"matrix_error", r.matrixError}};
+}
+
+Status run(Arguments arguments, Console& console) {
+  Status writable = checkOutput(arguments.output, {".glb"}, arguments.scene.path);
+  if (!writable) return writable;
+  if (!arguments.atlasPicture.empty()) {
+    writable = checkOutput(arguments.atlasPicture, {".png"}, arguments.scene.path);
+    if (!writable) return writable;
+  }
+  auto rtt = console.stage("read RTT", [&] { return asset::readRtt(arguments.rtt); });
+  if (!rtt) return rtt.error();
+  auto scene = arguments.scene.load(console);
+  if (!scene) return scene.error();
+
+  bi_scale::SpreadOptions& options = arguments.options;
+  auto meshes = chosenMeshes(arguments, *scene);
+  if (!meshes) return meshes.error();
+  options.meshes = *meshes;
+  options.placement =
+      arguments.map == "uv" ? bi_scale::Placement::OwnUvs : bi_scale::Placement::Synthesized;
+  if (!arguments.tiles.empty()) {
+    if (options.placement != bi_scale::Placement::OwnUvs)
+      return badUsage("--tiles says how often UVs repeat the patch: it goes with --map uv");
+    const Result<Size> tiles = parseSize(arguments.tiles);
+    if (!tiles) return tiles.error();
+    options.tiles = Vec2(float(tiles->width), float(tiles->height));
+  }
+  options.direction = arguments.direction;
+  options.transfer = arguments.transfer.chosen(console);
+  options.transfer.bands = rtt->bands;
+  options.seed = options.transfer.seed;
+  options.matrixEncoding = arguments.encoding == "snorm8"    ? encode::Encoding::Snorm8
+                           : arguments.encoding == "float32" ? encode::Encoding::Float32
+                                                             : encode::Encoding::Float16;
+  options.albedo = meso::effectiveAlbedo(encode::decode(*rtt));
+
+  Findings findings;
+  auto spread =
+      bi_scale::spreadPatch(std::move(*scene), *rtt, options, console.progress(), findings);
+  console.report(findings);
+  if (!spread && spread.error().kind == ErrorKind::BadInput)
+    return badInput(arguments.scene.path.string() + ": " + spread.error().message);
+  if (!spread) return spread.error();
+
+  Status status = written(
+      console.stage("write", [&] { return asset::write(spread->asset, arguments.output); }));
+  if (!status) return status;
+  if (!arguments.atlasPicture.empty()) {
+    if (spread->atlases.empty())
+      console.warn("no-atlas", "--atlas-picture: with --map uv there is no atlas to show");
+    else
+      status = written(console.stage("atlas picture", [&] {
+        return writeAtlasPicture(spread->atlases.front(), spread->asset,
+                                 spread->reports.front().mesh, arguments.atlasPicture);
+      }));
+    if (!status) return status;
+  }
+
+  double seconds = 0.0;
+  std::string times;
+  for (const StageTime& stage : console.stages()) {
+    seconds += stage.seconds;
+    times += fmt::format("  {:<28} {:>8}\n", stage.name, formatSeconds(stage.seconds));
+  }
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(arguments.output, ignored);
+  std::string reports;
+  Json reportsJson = Json::array();
+  for (const bi_scale::SpreadReport& report : spread->reports) {
+    reports += reportText(report);
+    reportsJson.push_back(asJson(report));
+  }
+  const Description transfer = describe(spread->asset.transfer, spread->asset.scene);
+  console.finish({{"output", arguments.output.string()},
+                  {"bytes", bytes},
+                  {"seconds", seconds},
+                  {"surfaces", reportsJson},
+                  {"transfer", transfer.json}},
+                 fmt::format("{}: {}\n{}{}{} in all\n{}", arguments.output.string(),
+                             formatBytes(double(bytes)), reports, transfer.text,
+                             formatSeconds(seconds), times));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<Arguments>();
+  bi_scale::SpreadOptions& options = arguments->options;
+  CLI::App* app = root.add_subcommand(
+      "synthesize", "Spread a patch of meso-structure over a surface, and write a bi-scale asset");
+  app->group("Verbs");
+  app->footer(std::string(kExamples));
+  arguments->scene.addTo(*app);
+  app->add_option("--rtt", arguments->rtt, "The patch: what 'lambent rtt' wrote")
+      ->option_text("PATCH.rtt")
+      ->required();
+  app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
+      ->option_text("ASSET.glb")
+      ->required();
+  app->add_option("--patch-width", options.patchWidth,
+                  "How much of the surface the patch's width covers, in the model's units; 0: "
+                  "about 200 patches over the whole surface")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("LENGTH")
+      ->capture_default_str()
+      ->group("Placement");
+  app->add_option("--map", arguments->map,
+                  "synthesized: texture synthesis over the surface; uv: the mesh's own UVs repeat "
+                  "the patch")
+      ->check(CLI::IsMember({"synthesized", "uv"}))
+      ->option_text("KIND")
+      ->capture_default_str()
+      ->group("Placement");
+  app->add_option("--tiles", arguments->tiles,
+                  "With --map uv: how often the patch repeats along u and v, as in 8x4")
+      ->option_text("UxV")
+      ->group("Placement");
+  addParsed(*app, "--direction", arguments->direction, parseTriple,
+            "Steers the patch: its +x follows this direction in the world where the surface lets "
+            "it. Without it the field is as smooth as can be")
+      ->option_text("X,Y,Z")
+      ->group("Placement");
+  app->add_option("--randomness", options.randomness,
+                  "0: repeat the patch wherever the surface lets it; 1: scatter it about")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("0..1")
+      ->capture_default_str()
+      ->group("Placement");
+  app->add_option("--mesh", arguments->meshes,
+                  "Name or number of a mesh that gets the patch; may be given several times. "
+                  "Without it: all but mirrors and the --ground")
+      ->option_text("NAME")
+      ->group("Placement");
+  app->add_option("--vertices", options.mesoVertices,
+                  "Vertices of the mesh that synthesis runs on; 0: one for each position of the "
+                  "patch, to 960,000")
+      ->check(CLI::Range(0, 16000000))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Placement");
+  app->add_option("--map-size", options.atlas.size, "Texels a side of the id map")
+      ->check(CLI::Range(64, 16384))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Atlas");
+  app->add_option("--gutter", options.atlas.gutter, "Texels at least between charts")
+      ->check(CLI::Range(1, 64))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Atlas");
+  app->add_option("--stretch", options.atlas.maximumStretch,
+                  "L2 stretch above which a chart is cut in two; 1 is none")
+      ->check(CLI::Range(1.01, 100.0))
+      ->option_text("FACTOR")
+      ->capture_default_str()
+      ->group("Atlas");
+  app->add_flag("!--new-uvs", options.atlas.ownUvs,
+                "Lay the surface out anew even where its own UVs would do")
+      ->group("Atlas");
+  app->add_option("--atlas-picture", arguments->atlasPicture,
+                  "Also draw the first mesh's charts and its id map")
+      ->option_text("OUT.png")
+      ->group("Atlas");
+  arguments->transfer.addTo(*app);
+  app->add_flag("--keep-shadowed", arguments->transfer.options.keepShadowed,
+                "Keep the matrices without interreflection too, so that 'render --macro shadowed' "
+                "can show them")
+      ->group("Transfer");
+  app->add_option("--encoding", arguments->encoding,
+                  "Of the matrices: snorm8 (a byte, and a scale for each matrix), float16, float32")
+      ->check(CLI::IsMember({"snorm8", "float16", "float32"}))
+      ->option_text("KIND")
+      ->capture_default_str()
+      ->group("Output");
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return run(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,54 @@
+#include "apps/lambent/transfer_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lambent::tool {
+
+void TransferArguments::addTo(CLI::App& app) {
+  app.add_option("--transfer", transfer,
+                 "unshadowed, shadowed, or interreflected (shadows and bounces)")
+      ->check(CLI::IsMember({"unshadowed", "shadowed", "interreflected"}))
+      ->option_text("KIND")
+      ->capture_default_str()
+      ->group("Transfer");
+  app.add_option("--directions", options.directions,
+                 "Directions over the whole sphere, the same for every receiver. Twice as many: "
+                 "twice the time, and a smaller error")
+      ->check(CLI::Range(16, 65536))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app.add_option("--bounces", options.bounces, "Bounces beyond the direct light, at most")
+      ->check(CLI::Range(0, 1000))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app.add_option("--energy-threshold", options.energyThreshold,
+                 "Stop bouncing when a pass has less than this fraction of the direct light's "
+                 "energy, as in 0.001")
+      ->check(CLI::Range(0.0, 1.0))
+      ->option_text("FRACTION")
+      ->capture_default_str()
+      ->group("Transfer");
+  app.add_option("--seed", options.seed, "Turns the set of directions: two seeds err independently")
+      ->option_text("N")
+      ->capture_default_str()
+      ->group("Transfer");
+  app.add_option("--hit-memory", options.hitMemory,
+                 "Memory for remembered hits, as in 2GB; what does not fit is cast again")
+      ->transform(CLI::AsSizeValue(false))
+      ->option_text("SIZE")
+      ->default_str("3GiB")
+      ->group("Output");
+}
+
+transport::BakeOptions TransferArguments::chosen(const Console& console) const {
+  transport::BakeOptions chosen = options;
+  chosen.kind = transfer == "unshadowed" ? transport::TransferKind::Unshadowed
+                : transfer == "shadowed" ? transport::TransferKind::Shadowed
+                                         : transport::TransferKind::Interreflected;
+  chosen.threads = console.options().threads;
+  return chosen;
+}
+
+}  // namespace lambent::tool

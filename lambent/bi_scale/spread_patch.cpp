@@ -1,0 +1,280 @@
+// This work is based on:
+// - sloan2003biscale: §4.3, the id map in three steps (synthesise, parameterise, look up), and
+// §4.1,
+//   matrices at the vertices; the frames of both are the same tangent field.
+//
+// Where we deviate, and why: the surface is laid out first and the tangent field computed on what
+// that leaves, so that vertices doubled along the borders of charts get the same tangent.
+#include "lambent/bi_scale/spread_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "lambent/bi_scale/uv_frames.h"
+#include "lambent/synthesis/appearance.h"
+#include "lambent/synthesis/meso_mesh.h"
+#include "lambent/synthesis/place_ids.h"
+#include "lambent/synthesis/synthesize.h"
+#include "lambent/trace/ray_scene.h"
+
+namespace lambent::bi_scale {
+
+namespace {
+
+constexpr std::uint32_t kMostMesoVertices = 960000;
+constexpr double kAutomaticPositions = 819200.0;
+
+/// Where a mesh carries the patch.
+struct Placed {
+  std::uint32_t mesh = 0;
+  float scale = 1.0f;
+  Vec2 tiles = Vec2(1.0f, 1.0f);
+  std::optional<synthesis::IdMap> idMap;
+};
+
+std::string quoted(const scene::Mesh& mesh, std::uint32_t index) {
+  return "mesh " + std::to_string(index) + (mesh.name.empty() ? "" : " (\"" + mesh.name + "\")");
+}
+
+Error named(const Error& error, const scene::Mesh& mesh, std::uint32_t index) {
+  if (error.kind == ErrorKind::Cancelled) return error;
+  return {error.kind, quoted(mesh, index) + ": " + error.message};
+}
+
+Result<std::vector<std::uint32_t>> chosenMeshes(const scene::Scene& scene,
+                                                const SpreadOptions& options) {
+  const auto isMirror = [&](std::uint32_t m) {
+    return scene.materials[std::size_t(scene.meshes[m].material)].isMirror();
+  };
+  std::vector<std::uint32_t> chosen = options.meshes;
+  if (chosen.empty())
+    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m)
+      if (!isMirror(m)) chosen.push_back(m);
+  for (const std::uint32_t m : chosen) {
+    if (m >= scene.meshes.size()) return report::badUsage("there is no mesh " + std::to_string(m));
+    if (isMirror(m))
+      return report::badInput(quoted(scene.meshes[m], m) +
+                              " is a mirror: meso-structure can not be spread over it");
+  }
+  if (chosen.empty())
+    return report::badInput("the scene has no mesh to spread the patch over: all are mirrors");
+  return chosen;
+}
+
+/// Everything that the patch brings along replaces the mesh's own.
+void replaceMaterial(scene::Scene& scene, std::uint32_t mesh, const encode::EncodedRtt& rtt,
+                     const Rgb& albedo, Findings& findings) {
+  const scene::Material& old = scene.materials[std::size_t(scene.meshes[mesh].material)];
+  if (old.baseColorTexture >= 0 || !scene.meshes[mesh].colors.empty())
+    findings.push_back({Severity::Note, "colours-replaced",
+                        quoted(scene.meshes[mesh], mesh) +
+                            ": its texture or vertex colours give way to the patch's",
+                        1});
+  scene::Material material;
+  material.name = rtt.name.empty() ? "meso-structure" : rtt.name;
+  material.diffuse = albedo.max(0.0f).min(1.0f);
+  scene.meshes[mesh].colors.clear();
+  scene.meshes[mesh].material = int(scene.materials.size());
+  scene.materials.push_back(material);
+}
+
+/// Materials and textures that nothing uses any more would only make the file larger.
+void dropUnused(scene::Scene& scene) {
+  std::vector<int> materialAt(scene.materials.size(), -1), textureAt(scene.textures.size(), -1);
+  std::vector<scene::Material> materials;
+  std::vector<scene::Texture> textures;
+  for (scene::Mesh& mesh : scene.meshes) {
+    int& at = materialAt[std::size_t(mesh.material)];
+    if (at < 0) {
+      at = int(materials.size());
+      scene::Material& material = materials.emplace_back(scene.materials[mesh.material]);
+      if (material.baseColorTexture >= 0) {
+        int& texture = textureAt[std::size_t(material.baseColorTexture)];
+        if (texture < 0) {
+          texture = int(textures.size());
+          textures.push_back(std::move(scene.textures[std::size_t(material.baseColorTexture)]));
+        }
+        material.baseColorTexture = texture;
+      }
+    }
+    mesh.material = at;
+  }
+  scene.materials = std::move(materials);
+  scene.textures = std::move(textures);
+}
+
+struct Spreader {
+  scene::Scene& scene;
+  const encode::EncodedRtt& rtt;
+  const SpreadOptions& options;
+  const Progress& progress;
+  Findings& findings;
+  Spread& out;
+  std::optional<synthesis::Appearance> appearance;  ///< made once for all meshes
+
+  Status byOwnUvs(std::uint32_t index, SpreadReport& report, Placed& placed,
+                  std::vector<Vec3>& tangents) {
+    const scene::Mesh& mesh = scene.meshes[index];
+    auto frames = uvTangents(mesh, findings);
+    if (!frames) return named(frames.error(), mesh, index);
+    tangents = std::move(*frames);
+    const Vec2 metres = metresPerUv(mesh);
+    const float aspect = rtt.size.y() / rtt.size.x();
+    placed.tiles = options.tiles;
+    // Whole numbers, so that a surface closed in u or v stays without a seam.
+    if (!(placed.tiles.x() > 0.0f))
+      placed.tiles.x() = std::max(1.0f, std::round(metres.x() / report.patchWidth));
+    if (!(placed.tiles.y() > 0.0f))
+      placed.tiles.y() = std::max(1.0f, std::round(metres.y() / (report.patchWidth * aspect)));
+    report.patchWidth = metres.x() / placed.tiles.x();
+    report.ownUvs = true;
+    const Vec2 asked(metres.x() / placed.tiles.x(), metres.y() / placed.tiles.y());
+    const float squash = asked.y() / (asked.x() * aspect);
+    if (squash > 1.5f || squash < 1.0f / 1.5f)
+      findings.push_back(
+          {Severity::Warning, "patch-stretched",
+           quoted(mesh, index) + ": in the mean its UVs stretch the patch to " +
+               std::to_string(squash).substr(0, 4) +
+               " times its height over its width: shadows inside the patch were computed for 1",
+           1});
+    return Status::ok();
+  }
+
+  Status bySynthesis(std::uint32_t index, SpreadReport& report, Placed& placed,
+                     std::vector<Vec3>& tangents) {
+    synthesis::AtlasOptions atlasOptions = options.atlas;
+    auto atlas = synthesis::makeAtlas(scene.meshes[index], atlasOptions, findings, progress);
+    if (!atlas) return named(atlas.error(), scene.meshes[index], index);
+    const int material = scene.meshes[index].material;
+    scene.meshes[index] = atlas->mesh;
+    scene.meshes[index].material = material;
+    const scene::Mesh& mesh = scene.meshes[index];
+
+    auto field = synthesis::tangentField(mesh, {.direction = options.direction}, findings);
+    if (!field) return named(field.error(), mesh, index);
+
+    const Vec2 patch = placed.scale * rtt.size;
+    const double positions = report.patches * rtt.width * rtt.height;
+    synthesis::MesoMeshOptions mesoOptions;
+    mesoOptions.vertices =
+        options.mesoVertices > 0
+            ? options.mesoVertices
+            : std::uint32_t(std::clamp(std::ceil(positions), 1024.0, double(kMostMesoVertices)));
+    mesoOptions.seed = options.seed;
+    auto meso = synthesis::mesoMesh(mesh, *field, mesoOptions, progress);
+    if (!meso) return named(meso.error(), mesh, index);
+
+    if (!appearance) appearance = synthesis::appearanceOf(encode::decode(rtt));
+    synthesis::SynthesisOptions synthesisOptions;
+    synthesisOptions.patchSize = patch;
+    synthesisOptions.randomness = options.randomness;
+    synthesisOptions.seed = options.seed;
+    auto coordinates = synthesis::synthesize(*meso, *appearance, synthesisOptions, progress);
+    if (!coordinates) return named(coordinates.error(), mesh, index);
+
+    auto ids = synthesis::placeIds(*atlas, *meso, *coordinates,
+                                   {.size = options.atlas.size, .patchSize = patch}, progress);
+    if (!ids) return named(ids.error(), mesh, index);
+
+    placed.idMap = std::move(*ids);
+    tangents = std::move(field->tangents);
+    report.mesoVertices = std::uint32_t(meso->positions.size());
+    report.singularities = std::uint32_t(field->singularities.size());
+    report.charts = atlas->charts;
+    report.stretch = atlas->stretch, report.worstStretch = atlas->worstStretch;
+    report.usedArea = atlas->usedArea, report.ownUvs = atlas->ownUvs;
+    out.atlases.push_back(std::move(*atlas));
+    return Status::ok();
+  }
+};
+
+}  // namespace
+
+double areaOf(const scene::Mesh& mesh) {
+  double area = 0.0;
+  for (const scene::Triangle& t : mesh.triangles)
+    area += 0.5 * double((mesh.positions[t[1]] - mesh.positions[t[0]])
+                             .cross(mesh.positions[t[2]] - mesh.positions[t[0]])
+                             .norm());
+  return area;
+}
+
+float automaticPatchWidth(double area, const encode::EncodedRtt& rtt) {
+  const double patches = kAutomaticPositions / (double(rtt.width) * rtt.height);
+  const double aspect = double(rtt.size.y()) / rtt.size.x();
+  return float(std::sqrt(area / (patches * aspect)));
+}
+
+Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
+                           const SpreadOptions& options, const Progress& progress,
+                           Findings& findings) {
+  const auto chosen = chosenMeshes(scene, options);
+  if (!chosen) return chosen.error();
+  if (options.transfer.bands != rtt.bands)
+    return report::badUsage("the transfer has " + std::to_string(options.transfer.bands) +
+                            " bands and the RTT " + std::to_string(rtt.bands) +
+                            ": they have to be the same");
+  double area = 0.0;
+  for (const std::uint32_t m : *chosen) area += areaOf(scene.meshes[m]);
+  if (!(area > 0.0)) return report::badInput("the surface has no area to spread the patch over");
+  const float width =
+      options.patchWidth > 0.0f ? options.patchWidth : automaticPatchWidth(area, rtt);
+
+  Spread spread;
+  Spreader spreader{scene, rtt, options, progress, findings, spread, {}};
+  transport::BakeOptions bakeOptions = options.transfer;
+  std::vector<Placed> all;
+  for (const std::uint32_t m : *chosen) {
+    SpreadReport& report = spread.reports.emplace_back();
+    report.mesh = m;
+    report.name = scene.meshes[m].name;
+    report.area = areaOf(scene.meshes[m]);
+    report.patchWidth = width;
+    Placed& placed = all.emplace_back();
+    placed.mesh = m;
+    placed.scale = width / rtt.size.x();
+    report.patches =
+        report.area / (double(placed.scale) * placed.scale * rtt.size.x() * rtt.size.y());
+    replaceMaterial(scene, m, rtt, options.albedo, findings);
+    transport::LocalFrames& frames = bakeOptions.biScale.emplace_back();
+    frames.mesh = m;
+    const Status status = options.placement == Placement::OwnUvs
+                              ? spreader.byOwnUvs(m, report, placed, frames.tangents)
+                              : spreader.bySynthesis(m, report, placed, frames.tangents);
+    if (!status) return status.error();
+    placed.scale = report.patchWidth / rtt.size.x();
+    report.patches =
+        report.area / (double(placed.scale) * placed.scale * rtt.size.x() * rtt.size.y());
+    report.vertices = std::uint32_t(scene.meshes[m].positions.size());
+  }
+  dropUnused(scene);
+
+  const auto rays = trace::RayScene::build(scene);
+  if (!rays) return rays.error();
+  auto field = transport::bake(scene, *rays, bakeOptions, progress, findings);
+  if (!field) return field.error();
+  encode::EncodedField& transfer = spread.asset.transfer;
+  transfer = encode::encode(*field, options.vectorEncoding);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const transport::LocalTransfer& local = *field->meshes[all[k].mesh].local;
+    encode::EncodedBiScale& biScale = *transfer.meshes[all[k].mesh].biScale;
+    const std::size_t matrix = std::size_t(local.bands) * local.bands * local.bands * local.bands;
+    biScale.shadowed = encode::encode(local.shadowed, options.matrixEncoding, matrix);
+    biScale.interreflected = encode::encode(local.interreflected, options.matrixEncoding, matrix);
+    spread.reports[k].matrixError =
+        local.interreflected.empty()
+            ? encode::encodingError(local.shadowed, biScale.shadowed)
+            : encode::encodingError(local.interreflected, biScale.interreflected);
+    biScale.rtt = 0;
+    biScale.scale = all[k].scale;
+    biScale.tiles = all[k].tiles;
+    biScale.idMap = std::move(all[k].idMap);
+  }
+  transfer.rtts = {rtt};
+  spread.asset.scene = std::move(scene);
+  return spread;
+}
+
+}  // namespace lambent::bi_scale

@@ -1,0 +1,80 @@
+// Scene + RTT → bi-scale asset (Sloan 2003 §4): where texture synthesis and macro-scale transfer
+// meet.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lambent/asset/asset.h"
+#include "lambent/meso/radiance_transfer_texture.h"
+#include "lambent/report/finding.h"
+#include "lambent/report/progress.h"
+#include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
+#include "lambent/synthesis/atlas.h"
+#include "lambent/synthesis/tangent_field.h"
+#include "lambent/transport/bake.h"
+
+namespace lambent::bi_scale {
+
+enum class Placement {
+  Synthesized,  ///< texture synthesis over the surface, kept in an id map over an atlas
+  OwnUvs,       ///< the mesh's UVs repeat the patch: parametric surfaces
+};
+
+struct SpreadOptions {
+  std::vector<std::uint32_t> meshes;  ///< that carry the patch; empty: all that are no mirrors
+  Placement placement = Placement::Synthesized;
+  /// Metres of the surface that the patch's width covers; 0: as many patches as the densest
+  /// meso-mesh can resolve (see automaticPatchWidth).
+  float patchWidth = 0.0f;
+  Vec2 tiles = Vec2(0.0f, 0.0f);   ///< OwnUvs: patches along u and v; 0: from patchWidth
+  std::uint32_t mesoVertices = 0;  ///< 0: one for each position of the patch, to 960,000
+  std::optional<Vec3> direction;   ///< steers the patch's +x, world space
+  float randomness = 0.5f;         ///< 0 … 1: see synthesis::SynthesisOptions
+  synthesis::AtlasOptions atlas;   ///< its size is the id map's
+  std::uint64_t seed = 0;
+  Rgb albedo =
+      Rgb::Constant(0.5f);          ///< of the patch as a whole: what it sends on to other surfaces
+  transport::BakeOptions transfer;  ///< biScale is filled in here
+  encode::Encoding matrixEncoding = encode::Encoding::Snorm8;
+  encode::Encoding vectorEncoding = encode::Encoding::Float16;  ///< of other meshes in the scene
+};
+
+/// What was done to one mesh.
+struct SpreadReport {
+  std::uint32_t mesh = 0;
+  std::string name;
+  double area = 0.0;        ///< m²
+  double patches = 0.0;     ///< how many times the patch's area fits
+  float patchWidth = 0.0f;  ///< metres
+  std::uint32_t vertices = 0, mesoVertices = 0;
+  std::uint32_t singularities = 0;
+  std::uint32_t charts = 0;
+  double stretch = 1.0, worstStretch = 1.0, usedArea = 0.0;
+  bool ownUvs = false;
+  double matrixError = 0.0;  ///< relative RMS that the encoding of the matrices costs
+};
+
+struct Spread {
+  asset::Asset asset;
+  std::vector<SpreadReport> reports;
+  std::vector<synthesis::Atlas> atlases;  ///< of Synthesized meshes, in the sequence of `reports`
+};
+
+/// The patch's colours and relief take the place of the material, texture and vertex colours of the
+/// meshes that carry it. Everything else in the scene is baked as transport::bake does. BadInput
+/// and BadUsage name the mesh.
+Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
+                           const SpreadOptions& options, const Progress& progress,
+                           Findings& findings);
+
+/// The width at which a surface of `area` m² holds as many positions of the patch as a meso-mesh of
+/// 819,200 vertices has: the finest that synthesis shows in full.
+float automaticPatchWidth(double area, const encode::EncodedRtt& rtt);
+
+double areaOf(const scene::Mesh& mesh);  ///< m²
+
+}  // namespace lambent::bi_scale
