@@ -17,6 +17,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "lambent/synthesis/smooth_borders.h"
+
 namespace lambent::synthesis {
 namespace {
 
@@ -33,6 +35,8 @@ constexpr double kSmallestBisected = 1.0 / 400.0;
 /// Distance counts for this much even where the normal is the chart's: charts of flat surfaces
 /// become round.
 constexpr double kRoundness = 0.15;
+/// Cosine of the angle from which a crease is sharp: regions end there before they are bisected.
+constexpr double kSharp = 0.6;
 /// What crossing a crease costs, per 1 − cos of its angle.
 constexpr double kCrease = 6.0;
 
@@ -174,26 +178,43 @@ std::vector<Chart> bisectAll(const WeldedSurface& surface, std::vector<Chart> wo
   return done;
 }
 
-/// Teeth of a border: a triangle with two neighbours in another chart goes over to it. It has one
-/// neighbour left at most, so that the chart it leaves still hangs together.
-void straighten(const WeldedSurface& surface, std::vector<std::uint32_t>& chartOf) {
-  for (int pass = 0; pass < 4; ++pass)
-    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-      if (!surface.hasArea(t)) continue;
-      const auto chartAcross = [&](int k) {
-        const std::uint32_t n = surface.neighbours[t][k];
-        return n == kNoTriangle ? kNoTriangle : chartOf[n];
-      };
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = chartAcross(k), b = chartAcross((k + 1) % 3),
-                            c = chartAcross((k + 2) % 3);
-        if (a != b || a == kNoTriangle || a == chartOf[t]) continue;
-        if (c != chartOf[t]) continue;  // the last triangle of its chart, or a corner of three
-        const double gained = edgeLength(surface, t, k) + edgeLength(surface, t, (k + 1) % 3);
-        if (gained > edgeLength(surface, t, (k + 2) % 3)) chartOf[t] = a;
-        break;
+/// Pieces of the surface between sharp creases. Small ones, of rough surfaces and bevels, do not
+/// count: creases around them are passed.
+std::vector<Chart> piecesBetweenCreases(const WeldedSurface& surface) {
+  const std::size_t count = surface.triangles.size();
+  std::vector<std::uint32_t> pieceOf(count, kNoTriangle);
+  std::vector<std::uint32_t> stack;
+  const auto flood = [&](const auto& passable) {
+    std::vector<Chart> pieces;
+    std::fill(pieceOf.begin(), pieceOf.end(), kNoTriangle);
+    for (std::uint32_t first = 0; first < count; ++first) {
+      if (pieceOf[first] != kNoTriangle || !surface.hasArea(first)) continue;
+      const auto id = static_cast<std::uint32_t>(pieces.size());
+      Chart& piece = pieces.emplace_back();
+      pieceOf[first] = id;
+      stack.push_back(first);
+      while (!stack.empty()) {
+        const std::uint32_t t = stack.back();
+        stack.pop_back();
+        piece.push_back(t);
+        for (const std::uint32_t n : surface.neighbours[t])
+          if (n != kNoTriangle && pieceOf[n] == kNoTriangle && passable(t, n))
+            pieceOf[n] = id, stack.push_back(n);
       }
+      std::sort(piece.begin(), piece.end());
     }
+    return pieces;
+  };
+  const auto smooth = [&](std::uint32_t a, std::uint32_t b) {
+    return surface.normals[a].dot(surface.normals[b]) > kSharp;
+  };
+  const std::vector<Chart> pieces = flood(smooth);
+  std::vector<bool> small(count);
+  for (const Chart& piece : pieces)
+    if (areaOf(surface, piece) < kSmallestBisected * surface.area)
+      for (const std::uint32_t t : piece) small[t] = true;
+  return flood(
+      [&](std::uint32_t a, std::uint32_t b) { return smooth(a, b) || small[a] || small[b]; });
 }
 
 /// Joins neighbours, the pair with the longest common border for its size first, as long as the
@@ -284,7 +305,7 @@ std::vector<Chart> join(const WeldedSurface& surface, std::vector<std::uint32_t>
 std::vector<Chart> cutIntoCharts(const WeldedSurface& surface) {
   Scratch scratch(surface.triangles.size());
   std::vector<std::uint32_t> chartOf(surface.triangles.size(), kNoTriangle);
-  std::vector<Chart> charts = bisectAll(surface, surface.components(), chartOf, scratch);
+  std::vector<Chart> charts = bisectAll(surface, piecesBetweenCreases(surface), chartOf, scratch);
   // All grow together, from the seeds that bisection found.
   Chart everything;
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
@@ -299,8 +320,8 @@ std::vector<Chart> cutIntoCharts(const WeldedSurface& surface) {
     grow(surface, everything, one, 0, seeds, scratch);
     charts = gather(everything, seeds.size(), scratch);
   }
+  charts = smoothBorders(surface, charts);
   label(charts, chartOf);
-  straighten(surface, chartOf);
   return join(surface, chartOf, charts.size());
 }
 

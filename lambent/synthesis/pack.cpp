@@ -16,6 +16,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "lambent/math/random.h"
 #include "lambent/synthesis/touched_texels.h"
 
 namespace lambent::synthesis {
@@ -29,6 +30,10 @@ constexpr double kLeastArea = 0.25;
 constexpr int kTrialCells = 512;
 /// With more charts than this, each is tried in fewer directions.
 constexpr std::size_t kManyCharts = 2000;
+
+/// With no more charts than this, several sequences are tried.
+constexpr std::size_t kFewCharts = 200;
+constexpr std::uint64_t kShuffles = 10;
 
 struct Mask {
   int width = 0, height = 0;
@@ -259,9 +264,39 @@ class Ground {
 };
 
 struct Order {
-  std::vector<std::uint32_t> charts;  ///< the large ones first
-  std::vector<double> angles;         ///< of each chart, to stand upright
+  const std::vector<std::uint32_t>& charts;
+  const std::vector<double>& angles;  ///< of each chart, to stand upright
 };
+
+/// Sequences to try: the large ones first, the long ones first, and some in which a chart may come
+/// before others that are not much larger.
+std::vector<std::vector<std::uint32_t>> ordersOf(const std::vector<PackShape>& shapes) {
+  std::vector<std::vector<std::uint32_t>> orders;
+  std::vector<double> keys(shapes.size());
+  const auto add = [&] {
+    std::vector<std::uint32_t>& order = orders.emplace_back(shapes.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+  };
+  for (std::size_t c = 0; c < keys.size(); ++c) keys[c] = shapes[c].area;
+  add();
+  if (shapes.size() > kFewCharts) return orders;
+  for (std::size_t c = 0; c < keys.size(); ++c) {
+    double farthest = 0.0;
+    for (const Vec2d& p : shapes[c].outlines.front())
+      farthest = std::max(farthest, (p - shapes[c].outlines.front().front()).norm());
+    keys[c] = farthest;
+  }
+  add();
+  for (std::uint64_t shuffle = 0; shuffle < kShuffles; ++shuffle) {
+    math::Random random(shuffle, shapes.size());
+    for (std::size_t c = 0; c < keys.size(); ++c)
+      keys[c] = shapes[c].area * std::exp(2.0 * (random.uniformDouble() - 0.5));
+    add();
+  }
+  return orders;
+}
 
 /// `scale` in cells a metre; nothing if they do not fit.
 std::optional<Packing> tryToPack(const std::vector<PackShape>& shapes, const Order& order, int size,
@@ -300,44 +335,73 @@ std::optional<Packing> tryToPack(const std::vector<PackShape>& shapes, const Ord
 }  // namespace
 
 Result<Packing> pack(const std::vector<PackShape>& shapes, const PackOptions& options) {
-  Order order;
-  order.charts.resize(shapes.size());
-  std::iota(order.charts.begin(), order.charts.end(), 0u);
-  std::stable_sort(order.charts.begin(), order.charts.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return shapes[a].area > shapes[b].area;
-  });
-  order.angles.resize(shapes.size());
+  std::vector<double> angles(shapes.size());
   tbb::parallel_for(std::size_t(0), shapes.size(),
-                    [&](std::size_t c) { order.angles[c] = uprightAngle(shapes[c]); });
+                    [&](std::size_t c) { angles[c] = uprightAngle(shapes[c]); });
+  const std::vector<std::vector<std::uint32_t>> orders = ordersOf(shapes);
   double area = 0.0;
   for (const PackShape& shape : shapes) area += shape.area;
   const bool thorough = shapes.size() <= kManyCharts / 4;
 
-  // The best of several shares of the square that the charts shall cover, all tried side by side.
-  const auto bestOf = [&](const std::vector<double>& shares, int cell) {
-    const int size = options.size / cell, gutter = (options.gutter + cell - 1) / cell;
-    std::vector<std::optional<Packing>> packings(shares.size());
-    tbb::parallel_for(std::size_t(0), shares.size(), [&](std::size_t i) {
-      packings[i] =
-          tryToPack(shapes, order, size, gutter, size * std::sqrt(shares[i] / area), thorough);
-    });
-    for (std::size_t i = shares.size(); i-- > 0;)
-      if (packings[i]) return std::pair(shares[i], std::move(packings[i]));
-    return std::pair(0.0, std::optional<Packing>());
+  // Trials: a sequence, and the share of the square that the charts shall cover. Returns the best
+  // of those that fit.
+  struct Trial {
+    double share = 0.0;
+    std::size_t order = 0;
+    std::optional<Packing> packing;
   };
+  const auto bestOf = [&](std::vector<Trial> trials, int cell) {
+    const int size = options.size / cell, gutter = (options.gutter + cell - 1) / cell;
+    tbb::parallel_for(std::size_t(0), trials.size(), [&](std::size_t i) {
+      trials[i].packing = tryToPack(shapes, {orders[trials[i].order], angles}, size, gutter,
+                                    size * std::sqrt(trials[i].share / area), thorough);
+    });
+    Trial best;
+    for (Trial& trial : trials)
+      if (trial.packing && trial.share > best.share) best = std::move(trial);
+    return best;
+  };
+  // First on a square of few cells. What fits there fits the real one.
   const int cell = std::max(1, options.size / kTrialCells);
-  double share = bestOf({0.40, 0.48, 0.56, 0.64, 0.72, 0.80}, cell).first;
-  if (share > 0.0) share = bestOf({share, share + 0.02, share + 0.04, share + 0.06}, cell).first;
-  std::optional<Packing> packing;
-  if (share > 0.0) {
-    std::vector<double> shares;
-    for (int i = -2; i < 6; ++i) shares.push_back(share + 0.015 * i);
-    packing = bestOf(shares, 1).second;
+  Trial best;
+  for (double most = 0.85; !best.packing && most > 1e-9; most *= most > 0.5 ? 0.55 : 0.15) {
+    std::vector<Trial> trials;
+    for (int i = 0; i < 6; ++i) trials.push_back({most * (1.0 - 0.08 * i), 0, {}});
+    best = bestOf(std::move(trials), cell);
+    // Where even gutters do not fit, coarse cells are to blame.
+    if (!best.packing && cell > 1 && most < 0.1) break;
   }
-  for (double least = 0.40; !packing && least > 1e-9; least *= 0.1)
-    packing =
-        bestOf({0.1 * least, 0.2 * least, 0.3 * least, 0.45 * least, 0.6 * least, 0.8 * least}, 1)
-            .second;
+  while (best.packing && orders.size() > 1) {
+    std::vector<Trial> trials;
+    for (std::size_t order = 0; order < orders.size(); ++order)
+      for (const double more : {0.015, 0.03, 0.045})
+        trials.push_back({best.share + more, order, {}});
+    Trial better = bestOf(std::move(trials), cell);
+    if (!better.packing) break;
+    best = std::move(better);
+  }
+  std::optional<Packing> packing;
+  if (best.packing) {
+    packing = std::move(best.packing);
+    packing->scale *= cell;
+    for (Placement& placement : packing->placements)
+      placement.linear *= cell, placement.offset *= cell;
+  }
+  // Then on the real one, where gutters and borders take less room.
+  if (cell > 1 || !packing) {
+    std::vector<Trial> trials;
+    if (packing) {
+      for (const double more : {0.01, 0.02, 0.03, 0.045, 0.06, 0.08})
+        trials.push_back({best.share + more, best.order, {}});
+      Trial better = bestOf(std::move(trials), 1);
+      if (better.packing) packing = std::move(better.packing);
+    }
+    for (double most = 0.6; !packing && most > 1e-9; most *= 0.15) {
+      trials.clear();
+      for (int i = 0; i < 4; ++i) trials.push_back({most * (1.0 - 0.22 * i), 0, {}});
+      packing = bestOf(std::move(trials), 1).packing;
+    }
+  }
   if (!packing)
     return report::badUsage("a map of " + std::to_string(options.size) +
                             " texels a side has no "

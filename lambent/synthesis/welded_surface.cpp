@@ -98,26 +98,4 @@ WeldedSurface weldedSurface(const scene::Mesh& mesh) {
   return surface;
 }
 
-std::vector<std::vector<std::uint32_t>> WeldedSurface::components() const {
-  std::vector<std::vector<std::uint32_t>> result;
-  std::vector<bool> seen(triangles.size());
-  std::vector<std::uint32_t> stack;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (seen[t] || !hasArea(t)) continue;
-    std::vector<std::uint32_t> members;
-    seen[t] = true;
-    stack.push_back(t);
-    while (!stack.empty()) {
-      const std::uint32_t at = stack.back();
-      stack.pop_back();
-      members.push_back(at);
-      for (const std::uint32_t n : neighbours[at])
-        if (n != kNoTriangle && !seen[n]) seen[n] = true, stack.push_back(n);
-    }
-    std::sort(members.begin(), members.end());
-    result.push_back(std::move(members));
-  }
-  return result;
-}
-
 }  // namespace lambent::synthesis

@@ -26,8 +26,6 @@ struct WeldedSurface {
   std::size_t nonManifoldEdges = 0;
 
   bool hasArea(std::uint32_t triangle) const { return areas[triangle] > 0.0; }
-  /// Sets of triangles of area that hang together across edges, each in rising sequence.
-  std::vector<std::vector<std::uint32_t>> components() const;
 };
 
 WeldedSurface weldedSurface(const scene::Mesh& mesh);
