@@ -19,9 +19,11 @@ struct Appearance {
   }
 };
 
-/// Principal components of the responses B(u, ·) over views, coefficients and channels, scaled so
-/// that Euclidean distance between descriptors is the distance between responses, for light of
-/// natural falloff over the bands.
+/// Principal components of the responses B(u, ·) over views, coefficients and channels. Euclidean
+/// distance between two places' descriptors is, up to what the components left out keep, the root
+/// mean square difference of their exit radiance under light whose every coefficient of band l has
+/// unit variance over max(l, 1)²; views weigh by their cosine, channels alike. `dimensions` ≥ 1;
+/// those beyond the responses' rank are 0.
 Appearance appearanceOf(const meso::RadianceTransferTexture& rtt, int dimensions = 8);
 
 }  // namespace lambent::synthesis
