@@ -340,9 +340,8 @@ Result<RadianceTransferTexture> buildRtt(const Patch& patch, const RttOptions& o
   rtt.size = patch.size;
   rtt.depth = extentOf(patch).depth();
   // Light that is gathered once more may lie coarser than light that is seen as it lies.
-  const float pitch = std::min(patch.size.x() / options.width, patch.size.y() / options.height);
-  const float spacing =
-      options.method == RttMethod::Gather ? pitch : pitch / static_cast<float>(options.supersample);
+  const float spacing = (options.method == RttMethod::Gather ? 2.0f : 1.0f) *
+                        std::min(patch.size.x() / options.width, patch.size.y() / options.height);
   const Facets facets(*scene, spacing);
   ParallelRows rows(progress, options.threads);
   Builder builder(*scene, facets, options);

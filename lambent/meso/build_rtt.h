@@ -34,7 +34,7 @@ struct RttOptions {
   int polarLights = 8, azimuthLights = 16;  ///< Images: the grid of lights, 1 … 256 each
   std::uint64_t seed = 0;  ///< turns the lattices; two seeds give independent errors
   int threads = 0;         ///< 0: as many as the machine has. No effect on the result
-  std::size_t blockTriangles = std::size_t(2) << 20;  ///< see PeriodicScene
+  std::size_t blockTriangles = std::size_t(1) << 19;  ///< see PeriodicScene
 };
 
 /// What building an RTT cost.

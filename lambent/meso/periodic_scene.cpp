@@ -117,7 +117,8 @@ Result<PeriodicScene> PeriodicScene::build(const Patch& patch, std::size_t block
   scene::Scene block;
   block.materials.emplace_back();
   block.meshes.push_back(blockOf(canonical, patch.size, across));
-  Result<trace::RayScene> rays = trace::RayScene::build(block);
+  // A ray that slips between two triangles comes to nothing: below the patch there is no light.
+  Result<trace::RayScene> rays = trace::RayScene::build(block, trace::Edges::Fast);
   if (!rays) return rays.error();
   PeriodicScene out(std::move(*rays));
   out.tile_ = std::move(tile);

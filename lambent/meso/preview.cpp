@@ -62,8 +62,13 @@ image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoeffici
                        const SquarePicture& options) {
   image::Image picture(options.pixels, options.pixels);
   const Vec3& view = options.view;
-  // The picture's axes: `up` is +y of the patch as far as it can be seen at right angles to view.
-  const Vec3 right = Vec3::UnitY().cross(view).normalized(), up = view.cross(right);
+  // Upright is away from the surface as seen from the side, +y as seen from above.
+  const Vec3 upright = view.z() > 0.999f ? Vec3::UnitY() : Vec3::UnitZ();
+  const Vec3 right = upright.cross(view).normalized(), up = view.cross(right);
+  // The square is drawn as large as fits.
+  const float across = std::abs(right.x()) + std::abs(right.y());
+  const float high = std::abs(up.x()) + std::abs(up.y());
+  const float scale = std::max(across, high);
   const int n = options.samples;
   for (int y = 0; y < options.pixels; ++y)
     for (int x = 0; x < options.pixels; ++x) {
@@ -72,7 +77,7 @@ image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoeffici
         const float sx = (x + (k % n + 0.5f) / n) / options.pixels - 0.5f;
         const float sy = 0.5f - (y + (k / n + 0.5f) / n) / options.pixels;
         // The ray through this place of the picture meets z = 0 at q.
-        const Vec3 p = sx * right + sy * up;
+        const Vec3 p = scale * (sx * right + sy * up);
         const Vec3 q = p - p.z() / view.z() * view;
         if (std::abs(q.x()) > 0.5f || std::abs(q.y()) > 0.5f) continue;
         const Vec2 aspect(1.0f, rtt.size.x() / rtt.size.y());
@@ -85,7 +90,7 @@ image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoeffici
 
 image::Image preview(const RadianceTransferTexture& rtt, int pixels) {
   constexpr int kGap = 4;
-  const std::array<Vec3, 2> eyes = {Vec3(0, 0, 1), Vec3(0.35f, -0.79f, 0.5f).normalized()};
+  const std::array<Vec3, 2> eyes = {Vec3(0, 0, 1), Vec3(0.26f, -0.79f, 0.55f).normalized()};
   const std::array<sh::RgbCoefficients, 3> lights = {
       discLight(rtt.bands, Vec3(-0.6f, 0.5f, 0.62f).normalized(), 0.35),
       discLight(rtt.bands, Vec3(0.85f, 0.1f, 0.5f).normalized(), 0.35),
