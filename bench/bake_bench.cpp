@@ -13,13 +13,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 
+#include "bench/figures_file.h"
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/scene_io/load.h"
@@ -30,37 +29,7 @@
 namespace {
 
 using namespace lambent;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-struct Figure {
-  std::string name;
-  double value;
-  std::string unit, wanted;
-};
-std::vector<Figure> figures;
-
-void note(const std::string& name, double value, const std::string& unit,
-          const std::string& wanted = "") {
-  figures.push_back({name, value, unit, wanted});
-  fmt::print("{:<64} {:>10.4g} {:<10} {}\n", name, value, unit,
-             wanted.empty() ? "" : "wanted " + wanted);
-  std::fflush(stdout);
-}
-
-/// Times several jobs alternately, so that they share the machine's moods; the best of each.
-std::vector<double> bestOf(int rounds, const std::vector<std::function<void()>>& jobs) {
-  std::vector<double> best(jobs.size(), 1e30);
-  for (int round = 0; round < rounds; ++round)
-    for (std::size_t j = 0; j < jobs.size(); ++j) {
-      const double start = now();
-      jobs[j]();
-      best[j] = std::min(best[j], now() - start);
-    }
-  return best;
-}
+using namespace lambent::bench;
 
 enum class Mode { One, Packets, PacketsCoherent, Stream, StreamCoherent };
 constexpr std::pair<Mode, const char*> kOcclusionModes[] = {
@@ -378,11 +347,6 @@ int main(int argc, char** argv) {
   if (dragon) benchMesh("dragon_res2", dragon->scene, quick ? 512 : 2048, 2);
   benchMesh("wrinkled sphere", fiftyThousand(), quick ? 1024 : 8192, 2);
 
-  if (!csv.empty()) {
-    std::ofstream file(csv);
-    file << "name,value,unit,wanted\n";
-    for (const Figure& f : figures)
-      file << fmt::format("\"{}\",{:.6g},{},{}\n", f.name, f.value, f.unit, f.wanted);
-  }
+  writeFigures(csv);
   return 0;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs every benchmark and keeps its figures as CSV. usage: bench/run.sh BUILD [FILTER]
 #   bench/results/<machine>/<name>.csv
-# Programs on Google Benchmark write it by --benchmark_out; bake_bench takes the path of its CSV.
+# Programs on Google Benchmark write it by --benchmark_out; the others take the path of their CSV.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1
@@ -18,7 +18,7 @@ for program in "$build"/bench/lambent_*_bench; do
   name=${name#lambent_}
   if [[ -n $filter && $name != *"$filter"* ]]; then continue; fi
   printf '\n== %s\n' "$name"
-  if [ "$name" = bake_bench ]; then
+  if [ "$name" = bake_bench ] || [ "$name" = bi_scale_bench ]; then
     "$program" "$results/$name.csv" build/inputs
   else
     "$program" --benchmark_out="$results/$name.csv" --benchmark_out_format=csv

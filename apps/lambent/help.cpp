@@ -15,6 +15,8 @@ const std::string_view kOverviewFooter = R"(In the sequence in which a person us
   lambent reference model.glb --light sky.exr -o truth.exr
   lambent render baked.glb --light sky.exr -o ours.exr
   lambent compare truth.exr ours.exr --strip strip.png how far from the truth is it?
+  lambent rtt weave -o weave.rtt                       a patch of texture with depth
+  lambent synthesize model.glb --rtt weave.rtt -o woven.glb   spread over a surface
 
 'lambent VERB --help' explains a verb with examples.
 Exit codes: 0 done, 1 the work failed, 2 wrong usage, 3 bad input.

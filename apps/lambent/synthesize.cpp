@@ -15,7 +15,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/asset/rtt_file.h"
 #include "lambent/bi_scale/spread_patch.h"
-#include "lambent/meso/albedo.h"
+#include "lambent/meso/effective_albedo.h"
 
 namespace lambent::tool {
 

@@ -24,6 +24,7 @@ Verb addShade(CLI::App& root, ConsoleOptions& common);
 Verb addRender(CLI::App& root, ConsoleOptions& common);
 Verb addReference(CLI::App& root, ConsoleOptions& common);
 Verb addCompare(CLI::App& root, ConsoleOptions& common);
+Verb addRtt(CLI::App& root, ConsoleOptions& common);
 Verb addSynthesize(CLI::App& root, ConsoleOptions& common);
 Verb addInfo(CLI::App& root, ConsoleOptions& common);
 

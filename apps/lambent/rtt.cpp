@@ -1,0 +1,381 @@
+// lambent rtt PATCH -o PATCH.rtt
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/describe.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/verbs.h"
+#include "lambent/asset/rtt_file.h"
+#include "lambent/encode/encoded_field.h"
+#include "lambent/image/io.h"
+#include "lambent/meso/acquired.h"
+#include "lambent/meso/build_rtt.h"
+#include "lambent/meso/effective_albedo.h"
+#include "lambent/meso/generators.h"
+#include "lambent/meso/load_patch.h"
+#include "lambent/meso/preview.h"
+#include "lambent/radiometry/tone.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct Arguments {
+  std::string patch;
+  std::filesystem::path output, previewPath, patchPath;
+  std::string size, positions = "64x64", method = "gather", encoding = "snorm8", up = "y";
+  std::string lights = "8x16";
+  std::optional<Rgb> albedo, backing, gloss;
+  std::optional<double> depth, lobe;
+  meso::RttOptions rtt;
+  meso::PatchFileOptions file;
+  double white = 1.0;
+};
+
+constexpr std::string_view kExamples = R"(
+PATCH is weave, holes, bin, flower, stucco or plaster; a height field (.png, .exr: black is low);
+a mesh (.glb, .gltf, .obj, .ply) that lies on the ground; or a measured BTF: a folder of rectified
+pictures (or its .csv) with a table
+    file,view_theta,view_phi,light_theta,light_phi
+of degrees, theta from the normal, phi from the pictures' right towards their top.
+
+Examples:
+  lambent rtt weave -o weave.rtt --preview weave.png
+      64×64 positions, 8×8 views; pictures from two sides under three lights.
+  lambent rtt stucco -o stucco.rtt --views 1 --positions 128x128 --seed 3
+      The diffuse special case: finer, and the same from every side.
+  lambent rtt bricks.png --color bricks_albedo.png --size 0.5 --depth 0.02 -o bricks.rtt
+      A height field of half a metre, 2 cm deep.
+  lambent rtt scales.glb -o scales.rtt --bounces 5
+  lambent rtt weave -o paper.rtt --method images
+      By 8×16 directional lights, as the paper does.
+  lambent rtt measured/corduroy -o corduroy.rtt
+)";
+
+Result<Vec2> parsePeriod(std::string_view text) {
+  const std::size_t times = text.find('x');
+  const Result<double> width = parseNumber(text.substr(0, times));
+  if (!width) return width.error();
+  const Result<double> height = times == text.npos ? width : parseNumber(text.substr(times + 1));
+  if (!height) return height.error();
+  if (!(*width > 0.0 && *height > 0.0)) return badUsage("a period is a number of metres above 0");
+  return Vec2(float(*width), float(*height));
+}
+
+bool isBtf(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return extensionOf(path) == ".csv" || std::filesystem::is_directory(path, ignored);
+}
+
+bool isGenerator(const std::string& name) {
+  const auto names = meso::generatorNames();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The patch that is named, with what the options change about it.
+Result<meso::Patch> makePatch(const Arguments& arguments, const std::optional<Vec2>& size,
+                              Console& console) {
+  if (isGenerator(arguments.patch)) {
+    if (arguments.depth || arguments.albedo || !arguments.file.color.empty())
+      return badUsage("--depth, --albedo and --color are for height fields in files; '" +
+                      arguments.patch + "' brings its own");
+    return *meso::generate(arguments.patch, size.value_or(Vec2(0.1f, 0.1f)), arguments.rtt.seed);
+  }
+  std::error_code ignored;
+  if (std::filesystem::path(arguments.patch).extension().empty() &&
+      !std::filesystem::exists(arguments.patch, ignored)) {
+    std::string names;
+    for (const std::string_view name : meso::generatorNames())
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    return badInput(arguments.patch + ": there is neither such a file nor such a pattern (" +
+                    names + ")");
+  }
+  meso::PatchFileOptions options = arguments.file;
+  options.size = size;
+  if (arguments.depth) options.depth = float(*arguments.depth);
+  if (arguments.albedo) options.albedo = *arguments.albedo;
+  if (arguments.backing) options.backing = *arguments.backing;
+  options.up = arguments.up == "z" ? meso::UpAxis::Z : meso::UpAxis::Y;
+  Findings findings;
+  auto patch =
+      console.stage("load", [&] { return meso::loadPatch(arguments.patch, options, findings); });
+  console.report(findings);
+  return patch;
+}
+
+double rootMeanSquare(std::span<const float> values) {
+  double sum = 0.0;
+  for (const float v : values) sum += double(v) * v;
+  return std::sqrt(sum / double(std::max<std::size_t>(values.size(), 1)));
+}
+
+/// The root mean square of what encoding changed, relative to that of the values.
+double encodingError(const meso::RadianceTransferTexture& rtt, const encode::EncodedRtt& encoded) {
+  std::vector<float> difference = encode::decode(encoded.values);
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= rtt.values[i];
+  const double scale = rootMeanSquare(rtt.values);
+  return scale > 0.0 ? rootMeanSquare(difference) / scale : 0.0;
+}
+
+Status runRtt(Arguments arguments, Console& console) {
+  if (Status fine = checkOutput(arguments.output, {".rtt"}, arguments.patch); !fine) return fine;
+  if (!arguments.previewPath.empty())
+    if (Status fine = checkOutput(arguments.previewPath, {".png", ".exr"}, arguments.patch); !fine)
+      return fine;
+  if (!arguments.patchPath.empty())
+    if (Status fine = checkOutput(arguments.patchPath, {".glb"}, arguments.patch); !fine)
+      return fine;
+  std::optional<Vec2> size;
+  if (!arguments.size.empty()) size = *parsePeriod(arguments.size);
+  const Size positions = *parseSize(arguments.positions), lights = *parseSize(arguments.lights);
+  meso::RttOptions& options = arguments.rtt;
+  options.width = positions.width, options.height = positions.height;
+  options.polarLights = lights.width, options.azimuthLights = lights.height;
+  options.method = arguments.method == "images" ? meso::RttMethod::Images : meso::RttMethod::Gather;
+  options.threads = console.options().threads;
+
+  Findings findings;
+  meso::RttCost cost;
+  Result<meso::RadianceTransferTexture> rtt = failed("nothing was built");
+  const bool measured = !isGenerator(arguments.patch) && isBtf(arguments.patch);
+  if (measured) {
+    if (!arguments.patchPath.empty())
+      return badUsage("--patch: a measured patch has no geometry to write");
+    meso::AcquiredOptions acquired;
+    acquired.width = options.width, acquired.height = options.height;
+    acquired.views = options.views, acquired.bands = options.bands;
+    acquired.polarLights = options.polarLights, acquired.azimuthLights = options.azimuthLights;
+    if (size) acquired.size = *size;
+    acquired.white = float(arguments.white);
+    acquired.threads = options.threads;
+    rtt = meso::acquireRtt(arguments.patch, acquired, console.progress(), findings);
+  } else {
+    auto patch = makePatch(arguments, size, console);
+    if (!patch) return patch.error();
+    if (arguments.gloss)
+      for (scene::Material& material : patch->scene.materials) {
+        material.glossy = *arguments.gloss;
+        if (arguments.lobe) material.lobeExponent = float(*arguments.lobe);
+      }
+    if (!arguments.patchPath.empty()) {
+      Status saved = written(console.stage(
+          "write patch", [&] { return meso::savePatch(*patch, arguments.patchPath); }));
+      if (!saved) return saved;
+    }
+    rtt = meso::buildRtt(*patch, options, console.progress(), findings, &cost);
+  }
+  console.report(findings);
+  if (!rtt) return rtt.error();
+
+  const encode::Encoding encoding = arguments.encoding == "float32"   ? encode::Encoding::Float32
+                                    : arguments.encoding == "float16" ? encode::Encoding::Float16
+                                                                      : encode::Encoding::Snorm8;
+  const encode::EncodedRtt encoded =
+      console.stage("encode", [&] { return encode::encode(*rtt, encoding); });
+  const double error = encodingError(*rtt, encoded);
+  const Rgb albedo = meso::effectiveAlbedo(*rtt);
+  Status status =
+      written(console.stage("write", [&] { return asset::writeRtt(encoded, arguments.output); }));
+  if (!status) return status;
+  if (!arguments.previewPath.empty()) {
+    status = written(console.stage("preview", [&] {
+      const image::Image picture = meso::preview(*rtt);
+      if (extensionOf(arguments.previewPath) == ".exr")
+        return image::write(picture, arguments.previewPath);
+      // The lights would show a white square facing them as 1: a little brighter for the eye.
+      return image::write(radiometry::toneMap(picture, 0.8f, radiometry::ToneCurve::Filmic),
+                          arguments.previewPath);
+    }));
+    if (!status) return status;
+  }
+
+  double seconds = 0.0;
+  std::string times;
+  for (const StageTime& stage : console.stages()) {
+    seconds += stage.seconds;
+    times += fmt::format("  {:<28} {:>8}\n", stage.name, formatSeconds(stage.seconds));
+  }
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(arguments.output, ignored);
+  const std::uint64_t rays = cost.viewRays + cost.lightRays;
+  console.finish(
+      {{"output", arguments.output.string()},
+       {"bytes", bytes},
+       {"name", rtt->name},
+       {"positions", {rtt->width, rtt->height}},
+       {"views", rtt->views},
+       {"bands", rtt->bands},
+       {"size", {rtt->size.x(), rtt->size.y()}},
+       {"depth", rtt->depth},
+       {"method", measured ? "measured" : arguments.method},
+       {"bounces", measured ? 0 : options.bounces},
+       {"encoding", arguments.encoding},
+       {"encoding_error", error},
+       {"effective_albedo", asJson(albedo)},
+       {"rays", rays},
+       {"seconds", seconds}},
+      fmt::format("{}: {}\n"
+                  "  {}×{} positions, {}×{} views, {} bands; {:.4g} × {:.4g} m, {:.3g} m deep\n"
+                  "  reflects {:.3f} {:.3f} {:.3f} of even light (R, G, B)\n"
+                  "  encoding {}: {:.2g} % root mean square error\n"
+                  "{}{} in all\n{}",
+                  arguments.output.string(), formatBytes(double(bytes)), rtt->width, rtt->height,
+                  rtt->views, rtt->views, rtt->bands, double(rtt->size.x()), double(rtt->size.y()),
+                  double(rtt->depth), albedo[0], albedo[1], albedo[2], arguments.encoding,
+                  100.0 * error, rays > 0 ? formatCount(rays) + " rays, " : std::string(),
+                  formatSeconds(seconds), times));
+  return Status::ok();
+}
+
+/// A check that turns what does not parse into wrong usage.
+template <class T>
+std::function<std::string(const std::string&)> parses(Result<T> (*parse)(std::string_view)) {
+  return [parse](const std::string& text) -> std::string {
+    const Result<T> parsed = parse(text);
+    return parsed ? "" : parsed.error().message;
+  };
+}
+
+}  // namespace
+
+Verb addRtt(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* app = root.add_subcommand(
+      "rtt", "Build the radiance transfer texture of a patch of meso-structure");
+  app->group("Verbs");
+  app->footer(std::string(kExamples));
+  meso::RttOptions& options = arguments->rtt;
+  app->add_option("PATCH", arguments->patch, "A pattern's name, a file, or a folder (see below)")
+      ->required();
+  app->add_option("-o,--output", arguments->output, "The RTT to write, an .rtt")
+      ->option_text("PATCH.rtt")
+      ->required();
+
+  const char* kPatch = "Patch";
+  app->add_option("--size", arguments->size,
+                  "The patch's period in metres. Default: 0.1; a mesh's bounding box")
+      ->check(parses(parsePeriod))
+      ->option_text("W[xH]")
+      ->group(kPatch);
+  app->add_option("--depth", arguments->depth,
+                  "Of a height field, in metres. Default: PNG 0.15 of the period, EXR as it stands")
+      ->check(CLI::Range(0.0, 1e6))
+      ->option_text("METRES")
+      ->group(kPatch);
+  app->add_option("--color", arguments->file.color, "Of a height field: a PNG or JPEG over it")
+      ->option_text("FILE")
+      ->group(kPatch);
+  addParsed(*app, "--albedo", arguments->albedo, parseRgb,
+            "Of a height field without --color. Default: 0.7")
+      ->option_text("R,G,B")
+      ->group(kPatch);
+  app->add_option("--blend", arguments->file.blend,
+                  "Blend a height field's borders over this fraction of it, so that it tiles")
+      ->check(CLI::Range(0.0, 0.5))
+      ->option_text("FRACTION")
+      ->capture_default_str()
+      ->group(kPatch);
+  app->add_option("--up", arguments->up,
+                  "The axis of a mesh file that points away from the patch: y (glTF's up) or z")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->option_text("AXIS")
+      ->capture_default_str()
+      ->group(kPatch);
+  addParsed(*app, "--backing", arguments->backing, parseRgb,
+            "Reflectance of the plane under a mesh that is open below. Default: 0.05")
+      ->option_text("R,G,B")
+      ->group(kPatch);
+  addParsed(*app, "--gloss", arguments->gloss, parseRgb,
+            "Glossy reflectance for all of the patch, besides its diffuse one")
+      ->option_text("R,G,B")
+      ->group(kPatch);
+  app->add_option("--lobe", arguments->lobe, "With --gloss: the exponent of the lobe")
+      ->check(CLI::Range(0.0, 1e5))
+      ->option_text("EXPONENT")
+      ->group(kPatch);
+  app->add_option("--white", arguments->white,
+                  "Of a measured BTF: the number that a white diffuse surface facing the light has "
+                  "in its pictures")
+      ->check(CLI::PositiveNumber)
+      ->option_text("NUMBER")
+      ->capture_default_str()
+      ->group(kPatch);
+
+  const char* kRtt = "Radiance transfer texture";
+  app->add_option("--positions", arguments->positions, "Samples of the patch along x and y")
+      ->check(parses(parseSize))
+      ->option_text("WxH")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--views", options.views,
+                  "Views a side, over the hemisphere; 1: no dependence on the view")
+      ->check(CLI::Range(1, 32))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--bands", options.bands, "Bands of the light, 1 to 10")
+      ->check(CLI::Range(1, 10))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--bounces", options.bounces, "Bounces of light inside the patch")
+      ->check(CLI::Range(0, 64))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--method", arguments->method,
+                  "gather: light is gathered in the basis at every point seen; images: summed over "
+                  "images under directional lights, as in the paper")
+      ->check(CLI::IsMember({"gather", "images"}))
+      ->option_text("NAME")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--directions", options.directions,
+                  "Directions over the whole sphere, from every point seen. Twice as many: twice "
+                  "the time, and a smaller error")
+      ->check(CLI::Range(16, 16384))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--lights", arguments->lights,
+                  "Of --method images and measured BTFs: polar × azimuthal directional lights")
+      ->check(parses(parseSize))
+      ->option_text("PxA")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--supersample", options.supersample, "Samples of a position, a side")
+      ->check(CLI::Range(1, 8))
+      ->option_text("N")
+      ->capture_default_str()
+      ->group(kRtt);
+  app->add_option("--seed", options.seed,
+                  "Turns the directions, and draws another stucco or plaster")
+      ->option_text("N")
+      ->capture_default_str()
+      ->group(kRtt);
+
+  app->add_option("--encoding", arguments->encoding,
+                  "snorm8 (as textures on a GPU), float16, or float32 for exact round trips")
+      ->check(CLI::IsMember({"snorm8", "float16", "float32"}))
+      ->option_text("KIND")
+      ->capture_default_str()
+      ->group("Output");
+  app->add_option("--preview", arguments->previewPath,
+                  "A picture of the patch on a square, from two sides, under three lights")
+      ->option_text("FILE.png|FILE.exr")
+      ->group("Output");
+  app->add_option("--patch", arguments->patchPath, "The patch's geometry, as a mesh")
+      ->option_text("FILE.glb")
+      ->group("Output");
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return runRtt(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

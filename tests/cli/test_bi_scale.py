@@ -1,0 +1,155 @@
+"""A patch becomes an RTT, is spread over a surface, and is relit."""
+
+import math
+import os
+import subprocess
+from pathlib import Path
+
+from harness import USAGE, ToolTest, ball_obj, png, quad_obj, read_csv
+
+GLTF_MODULES = os.environ["LAMBENT_GLTF_MODULES"]
+SMALL = ("--size", "16x16", "--views", 4, "--bands", 3, "--directions", 128, "--bounces", 1)
+
+
+class BiScaleTest(ToolTest):
+    def rtt(self, patch="stucco", output="patch.rtt", *options) -> Path:
+        self.run_tool("rtt", patch, "-o", output, "--quiet", *(options or SMALL))
+        return self.path(output)
+
+    def spread(self, *options, scene="ball.obj", output="ball.glb") -> dict:
+        if scene == "ball.obj" and not self.path(scene).exists():
+            self.write(scene, ball_obj(24, 12))
+        return self.run_json("synthesize", scene, "--rtt", "patch.rtt", "-o", output,
+                             "--directions", 256, "--map-size", 256, "--vertices", 8000, *options)
+
+
+class Spread(BiScaleTest):
+    def test_from_a_patch_to_a_picture(self):
+        self.rtt()
+        info = self.run_json("info", "patch.rtt")
+        self.assertEqual((info["kind"], info["width"], info["views"], info["bands"]),
+                         ("radiance transfer texture", 16, 4, 3))
+        summary = self.spread("--patch-width", 0.8)
+        surface = summary["surfaces"][0]
+        self.assertAlmostEqual(surface["patches"], 4 * math.pi / 0.64, delta=1.0)
+        self.assertEqual(surface["singularities"], 2)
+        info = self.run_json("info", "ball.glb")
+        bi_scale = info["transfer"]["meshes"][0]["bi_scale"]
+        self.assertEqual(bi_scale["id_map"], [256, 256])
+        self.assertEqual(info["transfer"]["rtts"][0]["width"], 16)
+        for backend in ("gl", "cpu"):
+            self.run_tool("render", "ball.glb", "--light", "disc:30,45,40", "-o", backend + ".exr",
+                          "--size", "96", "--backend", backend)
+        self.run_tool("compare", "cpu.exr", "gl.exr", "--fail-above", "rmse=0.004")
+        self.run_tool("shade", "ball.glb", "--light", "uniform", "-o", "ball.csv")
+        mean = [sum(row[6 + c] for row in read_csv(self.path("ball.csv"))) for c in range(3)]
+        self.assertGreater(min(mean), 0.0)
+
+    def test_the_file_is_sound_to_other_tools(self):
+        self.rtt()
+        self.spread()
+        validate = Path(__file__).parents[1] / "gltf" / "validate.mjs"
+        result = subprocess.run(["node", validate, "--modules", GLTF_MODULES, "ball.glb"],
+                                cwd=self.dir, text=True, capture_output=True, timeout=120)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_the_same_bytes_whatever_the_threads(self):
+        for threads in (1, 2, 3):
+            self.rtt("stucco", f"{threads}.rtt", *SMALL, "--threads", threads)
+            self.path(f"{threads}.rtt").replace(self.path("patch.rtt"))
+            self.spread("--threads", threads, output=f"{threads}.glb")
+            self.path("patch.rtt").replace(self.path(f"{threads}.rtt"))
+        for kind in ("rtt", "glb"):
+            one, two, three = (self.path(f"{n}.{kind}").read_bytes() for n in (1, 2, 3))
+            self.assertTrue(one == two == three, kind)
+
+    def test_a_flat_patch_is_diffuse_transfer(self):
+        """B of a flat patch is the cosine lobe: bi-scale must equal what `bake` makes."""
+        self.write("flat.png", png(8, 8))
+        self.rtt("flat.png", "patch.rtt", *SMALL, "--depth", 0, "--albedo", 0.6,
+                 "--encoding", "float32")
+        self.write("ball.obj", ball_obj(24, 12))
+        self.spread("--transfer", "unshadowed")
+        self.bake("ball.obj", "plain.glb", "--transfer", "unshadowed", "--albedo", 0.6, "--bands", 3,
+                  "--encoding", "float32")
+        light = "disc:20,50,60,3/2/1+uniform:0.2"
+        for name in ("ball", "plain"):
+            self.run_tool("shade", name + ".glb", "--light", light, "-o", name + ".csv")
+        plain = {tuple(round(v, 4) for v in row[:3]): row[6:] for row in
+                 read_csv(self.path("plain.csv"))}
+        for row in read_csv(self.path("ball.csv")):
+            expected = plain[tuple(round(v, 4) for v in row[:3])]
+            for a, b in zip(row[6:], expected):
+                self.assertAlmostEqual(a, b, delta=0.01 * max(1.0, b))
+
+    def test_macro_transport_can_be_switched(self):
+        self.rtt()
+        self.spread("--ground", "--keep-shadowed")
+        pictures = {}
+        for macro in ("off", "shadowed", "interreflected"):
+            self.run_tool("render", "ball.glb", "--light", "uniform", "-o", macro + ".exr",
+                          "--size", "64", "--macro", macro)
+            pictures[macro] = self.run_json("info", macro + ".exr")["mean"][0]
+        self.assertGreater(pictures["off"], pictures["interreflected"])
+        self.assertGreater(pictures["interreflected"], pictures["shadowed"])
+
+    def test_what_was_not_baked_cannot_be_shown(self):
+        self.rtt()
+        self.spread("--transfer", "shadowed")
+        self.run_tool("render", "ball.glb", "--light", "uniform", "-o", "a.png", "--size", "32",
+                      "--macro", "shadowed")
+        result = self.run_tool("render", "ball.glb", "--light", "uniform", "-o", "b.png", "--size",
+                               "32", "--macro", "interreflected", code=(USAGE, 3))
+        self.assertIn("interreflected", result.stderr)
+        self.assertFalse(self.path("b.png").exists())
+
+    def test_own_uvs_repeat_the_patch(self):
+        self.write("quad.obj", quad_obj(((0, 0), (0, 1), (1, 1), (1, 0))))
+        self.rtt()
+        summary = self.spread("--map", "uv", "--tiles", "3x2", scene="quad.obj", output="quad.glb")
+        self.assertEqual(summary["transfer"]["meshes"][0]["bi_scale"]["tiles"], [3, 2])
+        self.run_tool("render", "quad.glb", "--light", "disc:30,45,40", "-o", "a.png", "--size", "32")
+
+    def test_a_picture_of_the_atlas(self):
+        self.rtt()
+        self.spread("--atlas-picture", "atlas.png")
+        info = self.run_json("info", "atlas.png")
+        self.assertEqual((info["width"], info["height"]), (512, 256))
+
+
+class Refused(BiScaleTest):
+    def test_files_that_are_no_rtts(self):
+        self.write("ball.obj", ball_obj())
+        self.write("not.rtt", "hello")
+        self.refused("synthesize", "ball.obj", "--rtt", "not.rtt", "-o", "a.glb",
+                     says=("not.rtt", "lambent rtt"))
+        self.refused("synthesize", "ball.obj", "--rtt", "missing.rtt", "-o", "a.glb",
+                     says="missing.rtt")
+        whole = self.rtt().read_bytes()
+        self.write("cut.rtt", whole[: len(whole) // 2])
+        self.refused("synthesize", "ball.obj", "--rtt", "cut.rtt", "-o", "a.glb",
+                     says=("cut.rtt", "cut off"))
+
+    def test_uvs_that_are_not_there(self):
+        self.write("ball.obj", ball_obj())
+        self.rtt()
+        self.refused("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "a.glb", "--map", "uv",
+                     says=("ball.obj", "UVs"))
+
+    def test_tiles_without_uvs(self):
+        self.write("ball.obj", ball_obj())
+        self.rtt()
+        self.refused("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "a.glb", "--tiles", "2x2",
+                     code=USAGE, says="--map uv")
+
+    def test_a_mesh_that_is_not_there(self):
+        self.write("ball.obj", ball_obj())
+        self.rtt()
+        self.refused("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "a.glb", "--mesh", "hat",
+                     code=USAGE, says="hat")
+
+    def test_a_mirror(self):
+        self.write("ball.obj", ball_obj())
+        self.rtt()
+        self.refused("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "a.glb", "--material",
+                     "mirror", says="mirror")
