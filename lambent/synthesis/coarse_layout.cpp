@@ -152,12 +152,13 @@ void scatter(const MesoMesh& mesh, std::size_t level, const PatchLevel& patch,
     const std::vector<PatchLevel::Place> places = patch.mostSimilar(from, kPlaces, kApart);
     jump[c] = Vec2::Zero();
     if (places.empty()) return;
-    // Randomness is also how much less alike a place may be than the one most alike.
+    // Randomness is also how much less alike a place may be than the one most alike; a few have
+    // their chance however that is, or all cells with like centres would jump alike.
     const float most = places[0].distance + 0.5f * options.randomness * patch.windowVariance();
-    std::uint32_t alike = 0;
+    std::size_t alike = std::min(places.size(), std::size_t(1.5f + 8.0f * options.randomness));
     while (alike < places.size() && places[alike].distance <= most) ++alike;
     math::Random random(options.seed, cells.centres[c], 0x10b9u);
-    jump[c] = places[random.below(alike)].q - from;
+    jump[c] = places[random.below(std::uint32_t(alike))].q - from;
   });
   for (std::size_t v = 0; v < q.size(); ++v) q[v] += jump[cells.cellOf[v]];
 }

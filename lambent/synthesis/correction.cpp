@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::size_t kMostNeighbours = 64;
 constexpr float kStrain = 0.3f;  ///< by which a continuation may be stretched or sheared
-constexpr float kJump = 1.1f;    ///< how much better than continuation a similar place must fit
-constexpr float kStray = 0.02f;  ///< cost of a neighbour off its continuation, of the variance
+constexpr float kJump = 1.3f;    ///< how much better than continuation a similar place must fit
+constexpr float kStray = 0.05f;  ///< cost of a neighbour off its continuation, of the variance
 
 }  // namespace
 
