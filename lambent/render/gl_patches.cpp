@@ -10,10 +10,12 @@
 #include "lambent/render/gl_patches.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <Eigen/Geometry>
 
 #include "lambent/encode/half.h"
 #include "lambent/render/batches.h"

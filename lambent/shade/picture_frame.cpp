@@ -77,6 +77,14 @@ Status checkMesh(const std::string& where, const scene::Mesh& mesh, const Encode
 
 }  // namespace
 
+Status checkCamera(const scene::Camera& camera) {
+  const Eigen::Matrix4f world = camera.worldFromCamera;
+  if (!world.allFinite() || !(std::abs(world.topLeftCorner<3, 3>().determinant()) > 0.0f))
+    return report::badInput(
+        fmt::format("camera '{}': its matrix is not a placement in space", camera.name));
+  return Status::ok();
+}
+
 Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
                     const scene::Camera& camera, const PictureOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > kLargestSide ||
@@ -91,10 +99,7 @@ Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
         fmt::format("a lobe exponent of {}: 0 to 1e6 can be", *options.lobeExponent));
   if (light.bands < 1 || light.values.size() != 3u * sh::coefficientCount(light.bands))
     return report::badInput("a light without bands, or with too few numbers for them");
-  const Eigen::Matrix4f world = camera.worldFromCamera;
-  if (!world.allFinite() || !(std::abs(world.topLeftCorner<3, 3>().determinant()) > 0.0f))
-    return report::badInput(
-        fmt::format("camera '{}': its matrix is not a placement in space", camera.name));
+  if (Status s = checkCamera(camera); !s) return s;
 
   const std::size_t meshes = asset.scene.meshes.size();
   if (meshes != asset.transfer.meshes.size())

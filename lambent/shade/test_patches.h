@@ -1,0 +1,65 @@
+// Small bi-scale assets for the tests of shade and render: radiance transfer textures by formula,
+// spread over meshes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lambent/asset/asset.h"
+#include "lambent/meso/radiance_transfer_texture.h"
+
+namespace lambent::shade::test {
+
+/// Positions, views a side and bands; values zero.
+meso::RadianceTransferTexture emptyRtt(int width, int height, int views, int bands);
+
+/// A flat patch of one reflectance: B_i = ρ/π Â_l y_i(+z) everywhere, from everywhere.
+meso::RadianceTransferTexture flatRtt(int width, int height, int views, int bands,
+                                      const Rgb& reflectance);
+
+/// Bumps with colours, all different, that answer differently to every view: nothing about it is
+/// symmetric. 1 m a side.
+meso::RadianceTransferTexture bumpyRtt(int width, int height, int views, int bands);
+
+/// Every coefficient but the constant one is zero; that of position (x, y), view (vx, vy) is the
+/// colour of `of`. Under uniform light of radiance 1 the patch shows these colours.
+template <class Colour>
+meso::RadianceTransferTexture paintedRtt(int width, int height, int views, Colour of) {
+  meso::RadianceTransferTexture rtt = emptyRtt(width, height, views, 1);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int vy = 0; vy < views; ++vy)
+        for (int vx = 0; vx < views; ++vx) {
+          const Rgb colour = of(x, y, vx, vy);
+          for (int c = 0; c < 3; ++c)
+            rtt.values[rtt.index(0, x, y, vx, vy) + c] = colour[c] / 3.5449077f;  // √4π
+        }
+  return rtt;
+}
+
+/// Unit tangents at right angles to the normals, as near as possible to `direction`.
+std::vector<Vec3> tangentsAlong(const scene::Mesh& mesh, const Vec3& direction);
+
+/// An id map whose places run on as the texture coordinates do, `tiles` times, but jump by a random
+/// amount from square to square of 8 texels.
+synthesis::IdMap patchworkMap(int width, int height, const Vec2& tiles);
+
+struct SpreadOptions {
+  encode::Encoding encoding = encode::Encoding::Float32;
+  encode::Encoding matrices = encode::Encoding::Float32;
+  Vec3 tangent = Vec3(1.0f, 0.1f, 0.05f);
+  std::optional<synthesis::IdMap> idMap;
+  Vec2 tiles = Vec2(3.0f, 2.0f);
+  float scale = 1.0f;
+  int shadowedBands = 0;  ///< 0: no matrices
+  int channels = 0;       ///< of interreflected matrices, 0: none
+};
+
+/// Adds `mesh` with the patch spread over it. Matrices: the rotation into the tangent frame, of
+/// which shadowed ones keep ¾, and interreflected ones ½ with a tint that differs by channel and
+/// receiver.
+void addPatched(asset::Asset& asset, scene::Mesh mesh, const meso::RadianceTransferTexture& rtt,
+                const SpreadOptions& options);
+
+}  // namespace lambent::shade::test
