@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/lambent/arguments.h"
+#include "apps/lambent/bi_scale_arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
@@ -29,6 +30,7 @@ struct Arguments {
   std::string backend = "gl";
   int samples = 16;
   std::optional<double> lobeExponent;
+  BiScaleArguments biScale;
 };
 
 constexpr std::string_view kExamples = R"(
@@ -38,6 +40,8 @@ Examples:
   lambent render bunny.glb --light disc:45,30,20 -o bunny.png --window minimal --exposure 1.5
   lambent render bunny.glb --light sky.exr -o bunny.exr --backend cpu
       Linear radiance, to measure or to compare.
+  lambent render bird.glb --light sky.exr -o flat.png --macro shadowed --view-dependence off
+      A surface with meso-structure, without light that its shape bounces, and pasted on.
 )";
 
 Status runRender(const Arguments& arguments, Console& console) {
@@ -58,6 +62,7 @@ Status runRender(const Arguments& arguments, Console& console) {
   options.samples = arguments.samples;
   options.background = arguments.view.background;
   if (arguments.lobeExponent) options.lobeExponent = float(*arguments.lobeExponent);
+  options.biScale = arguments.biScale.options();
   const auto backend = arguments.backend == "gl" ? &render::picture : &shade::picture;
   const auto began = std::chrono::steady_clock::now();
   auto picture = backend(*asset, *light, *environment, *camera, options, console.progress());
@@ -99,7 +104,9 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
   CLI::App* app = root.add_subcommand("render", "Relight an asset and draw a picture");
   app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
-  app->add_option("ASSET", arguments->asset, "A .glb that 'lambent bake' wrote")->required();
+  app->add_option("ASSET", arguments->asset,
+                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
+      ->required();
   arguments->light.addTo(*app, false);
   app->add_option("-o,--output", arguments->output,
                   "The picture: .png for the eye, .exr for linear radiance")
@@ -121,6 +128,8 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
       ->check(CLI::Range(0.0, 1e5))
       ->option_text("EXPONENT")
       ->group("Picture");
+  arguments->biScale.addTo(*app);
+  arguments->biScale.addFilterTo(*app);
   arguments->development.addTo(*app);
   arguments->light.addWindowTo(*app);
   addCommonOptions(*app, common);

@@ -8,12 +8,14 @@
 #include <memory>
 
 #include "apps/lambent/arguments.h"
+#include "apps/lambent/bi_scale_arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
+#include "lambent/shade/check_bi_scale.h"
 
 namespace lambent::tool {
 
@@ -24,6 +26,7 @@ struct Arguments {
   LightArguments light;
   std::optional<Vec3> eye;
   std::optional<double> lobeExponent;
+  BiScaleArguments biScale;
 };
 
 constexpr std::string_view kExamples = R"(
@@ -32,6 +35,8 @@ Examples:
       Exit radiance of every vertex, one row each, for a spreadsheet or a script.
   lambent shade teapot.glb --light sky.exr -o teapot.ply --eye 0,1,4 --lobe 32
       Seen from a point, which matters to glossy surfaces.
+  lambent shade bird.glb --light sky.exr -o bird.csv --macro off
+      A surface with meso-structure as if its shape hid no light.
 )";
 
 Status runShade(const Arguments& arguments, Console& console) {
@@ -47,6 +52,8 @@ Status runShade(const Arguments& arguments, Console& console) {
   shade::View view;
   view.eye = arguments.eye;
   if (arguments.lobeExponent) view.lobeExponent = float(*arguments.lobeExponent);
+  view.biScale = arguments.biScale.options();
+  if (Status s = shade::checkBiScale(*asset, view.biScale); !s) return s;
   const ReceiverFile file = console.stage("shade", [&] {
     ReceiverFile all;
     for (std::uint32_t m = 0; m < asset->transfer.meshes.size(); ++m) {
@@ -84,7 +91,9 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
       "shade", "Relight an asset and write the exit radiance of every receiver as numbers");
   app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
-  app->add_option("ASSET", arguments->asset, "A .glb that 'lambent bake' wrote")->required();
+  app->add_option("ASSET", arguments->asset,
+                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
+      ->required();
   arguments->light.addTo(*app, false);
   app->add_option("-o,--output", arguments->output,
                   "Columns x,y,z,nx,ny,nz,r,g,b in world space, .ply (binary) or .csv")
@@ -99,6 +108,7 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
       ->check(CLI::Range(0.0, 1e5))
       ->option_text("EXPONENT")
       ->group("View");
+  arguments->biScale.addTo(*app);
   arguments->light.addWindowTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runShade(*arguments, console); }};
