@@ -16,10 +16,11 @@ template <class Visit>
 void forTexels(const Atlas& atlas, int size, const Visit& visit) {
   for (std::uint32_t t = 0; t < atlas.mesh.triangles.size(); ++t) {
     const std::uint32_t chart = atlas.chartOfTriangle[t];
-    if (chart == kNoTriangle) continue;
     Vec2d p[3];
     for (int k = 0; k < 3; ++k)
       p[k] = atlas.mesh.uvs[atlas.mesh.triangles[t][k]].cast<double>() * size;
+    const Vec2d e = p[1] - p[0], f = p[2] - p[0];
+    if (e.x() * f.y() - e.y() * f.x() == 0.0) continue;
     forTouchedRows(p, -kRounding, [&](int y, int x0, int x1) {
       if (y < 0 || y >= size) return;
       for (int x = std::max(0, x0); x <= std::min(size - 1, x1); ++x)

@@ -23,10 +23,10 @@ namespace lambent::synthesis {
 namespace {
 
 /// Length of the mean normal below which a region is bisected: 1 for a plane, (1 + cos θ)/2 for the
-/// cap of a sphere around an angle θ (66° here).
-constexpr double kCoherent = 0.70;
+/// cap of a sphere around an angle θ (73° here).
+constexpr double kCoherent = 0.65;
 /// … and down to which neighbours are joined.
-constexpr double kJoinable = 0.72;
+constexpr double kJoinable = 0.66;
 /// … and down to which charts below kSmall of the mean area are joined with a neighbour.
 constexpr double kJoinableIfSmall = 0.45;
 constexpr double kSmall = 0.15;

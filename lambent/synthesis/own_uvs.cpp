@@ -45,6 +45,13 @@ std::uint32_t labelCharts(const scene::Mesh& mesh, const WeldedSurface& surface,
     }
     ++charts;
   }
+  // Triangles without area go with a neighbour: nothing of them can be seen.
+  std::vector<std::uint32_t> chartAt(surface.positions.size(), 0);
+  for (std::uint32_t t = 0; t < chartOf.size(); ++t)
+    if (surface.hasArea(t))
+      for (const std::uint32_t v : surface.triangles[t]) chartAt[v] = chartOf[t];
+  for (std::uint32_t t = 0; t < chartOf.size(); ++t)
+    if (!surface.hasArea(t)) chartOf[t] = chartAt[surface.triangles[t][0]];
   return charts;
 }
 
@@ -77,16 +84,15 @@ std::optional<Atlas> atlasOfOwnUvs(const scene::Mesh& mesh, const WeldedSurface&
     if (!surface.hasArea(t)) continue;
     std::array<Vec2d, 3> p;
     for (int k = 0; k < 3; ++k) p[k] = mesh.uvs[mesh.triangles[t][k]].cast<double>();
-    Vec2d e = p[1] - p[0], f = p[2] - p[0];
+    const Vec2d e = p[1] - p[0], f = p[2] - p[0];
     const double doubled = e.x() * f.y() - e.y() * f.x();
     // Less than a ten-thousandth of a texel: rounding, not a picture.
     if (std::abs(doubled) * options.size * options.size < 1e-4) {
       if (surface.areas[t] > 1e-7 * surface.area) ++collapsed;
       continue;
     }
-    if (doubled < 0.0)
-      std::swap(p[1].x(), p[1].y()), std::swap(p[2].x(), p[2].y()),
-          std::swap(p[0].x(), p[0].y());  // a mirrored chart stretches no more for it
+    if (doubled < 0.0)  // a mirrored chart stretches no more for it
+      for (Vec2d& q : p) q.x() = -q.x();
     const auto& v = surface.triangles[t];
     const double stretch = triangleStretch(surface.positions[v[0]], surface.positions[v[1]],
                                            surface.positions[v[2]], p[0], p[1], p[2]);

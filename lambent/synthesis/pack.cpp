@@ -105,8 +105,8 @@ double uprightAngle(const PackShape& shape) {
   return angle;
 }
 
-/// Every cell that the chart touches.
-Footprint draw(const PackShape& shape, const Eigen::Matrix2d& linear) {
+/// Every cell that the chart touches; nothing if it is longer than `longest` cells.
+std::optional<Footprint> draw(const PackShape& shape, const Eigen::Matrix2d& linear, int longest) {
   std::vector<std::vector<Vec2d>> outlines = shape.outlines;
   const Vec2d shift = Vec2d::Constant(0.5) - linear * shape.anchor;
   Vec2d lower = Vec2d::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
@@ -115,6 +115,7 @@ Footprint draw(const PackShape& shape, const Eigen::Matrix2d& linear) {
       p = linear * p + shift;
       lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
     }
+  if (!((upper - lower).maxCoeff() < longest)) return std::nullopt;
   const Vec2d origin((lower - Vec2d::Constant(kMargin)).array().floor());
   Footprint result;
   result.placement = {linear, shift - origin};
@@ -312,7 +313,10 @@ std::optional<Packing> tryToPack(const std::vector<PackShape>& shapes, const Ord
     std::optional<Ground::Place> best;
     Footprint chosen;
     for (int half = 0; half < (thorough ? 2 : 1); ++half) {
-      Footprint footprint = draw(shape, own * turnBy(order.angles[c] + 0.25 * kPi * half));
+      std::optional<Footprint> drawn =
+          draw(shape, own * turnBy(order.angles[c] + 0.25 * kPi * half), size - 2 * gutter);
+      if (!drawn) continue;
+      Footprint& footprint = *drawn;
       for (int quarter = 0; quarter < (shapes.size() > kManyCharts ? 2 : 4); ++quarter) {
         if (quarter > 0) footprint = quarterTurn(footprint);
         footprint.spans.clear();
