@@ -11,6 +11,7 @@
 // themselves that would be lost by that.
 #include "lambent/synthesis/synthesize.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -114,7 +115,9 @@ Result<std::vector<Vec2>> synthesize(const MesoMesh& mesh, const Appearance& app
       inherit(mesh, level, offsets, options, q);
     }
     const Correction correction(mesh, level, offsets, patch, options.patchSize);
-    for (int pass = 0; pass < options.passes; ++pass) {
+    // What the coarsest levels leave torn, finer ones can only trim; and passes there cost little.
+    const int passes = options.passes * std::max(1, 4 >> std::min(level - start, std::size_t(2)));
+    for (int pass = 0; pass < passes; ++pass) {
       if (progress &&
           !progress({"texture synthesis", level - start, mesh.levels.size() - start, "levels"})) {
         return report::cancelled();
