@@ -230,7 +230,7 @@ TEST_P(AtlasOf, IsTheSameSurface) {
 }
 
 TEST_P(AtlasOf, ChartsKeepTheirGutters) {
-  for (const auto& [size, gutter] : {std::pair(160, 2), std::pair(256, 5)}) {
+  for (const auto& [size, gutter] : {std::pair(128, 2), std::pair(200, 5)}) {
     const Atlas atlas = automatic(theCase().mesh, {.size = size, .gutter = gutter});
     const auto texels = chartsOfTexels(atlas, size);
     std::set<std::uint32_t> seen;
@@ -252,7 +252,7 @@ TEST_P(AtlasOf, ChartsKeepTheirGutters) {
 }
 
 TEST_P(AtlasOf, LiesFlatOnceAndUnturned) {
-  const Atlas atlas = automatic(theCase().mesh, {.size = 512});
+  const Atlas atlas = automatic(theCase().mesh, {.size = 200});
   double used = 0.0;
   for (const Vec2& uv : atlas.mesh.uvs) {
     EXPECT_GE(uv.minCoeff(), 0.0f);
@@ -265,13 +265,13 @@ TEST_P(AtlasOf, LiesFlatOnceAndUnturned) {
     }
   }
   EXPECT_NEAR(used, atlas.usedArea, 1e-4);
-  const Status sound = scene::checkUvs(atlas.mesh, 512, 512);
+  const Status sound = scene::checkUvs(atlas.mesh, 200, 200);
   EXPECT_TRUE(sound) << sound.error().message;
 }
 
 TEST_P(AtlasOf, StretchesNoMoreThanItSays) {
   const float most = 1.02f;
-  const Atlas atlas = automatic(theCase().mesh, {.size = 1024, .maximumStretch = most});
+  const Atlas atlas = automatic(theCase().mesh, {.size = 256, .maximumStretch = most});
   struct Sum {
     double squared = 0.0, area = 0.0, flat = 0.0;
     int triangles = 0;
@@ -294,7 +294,7 @@ TEST_P(AtlasOf, StretchesNoMoreThanItSays) {
   const double density = whole.flat / whole.area;
   for (const auto& [chart, sum] : charts) {
     // Charts of a texel's size are at the mercy of rounding, and drawn larger.
-    if (sum.flat < 16.0 / (1024.0 * 1024.0)) continue;
+    if (sum.flat < 16.0 / (256.0 * 256.0)) continue;
     EXPECT_NEAR(sum.flat / sum.area, density, 5e-3 * density);
     worst = std::max(worst, sum.stretch());
     if (sum.triangles > 1) {
@@ -323,16 +323,16 @@ TEST(Atlas, IsTheSameAtAnyNumberOfThreads) {
 }
 
 TEST(Atlas, DevelopableSurfacesDoNotStretch) {
-  EXPECT_LT(automatic(scene::box(Vec3(1, 1, 1), 4), {.size = 512}).worstStretch, 1.0001);
-  EXPECT_LT(automatic(scene::cylinder(1.0f, 1.0f, 48, 8), {.size = 512}).worstStretch, 1.005);
+  EXPECT_LT(automatic(scene::box(Vec3(1, 1, 1), 4), {.size = 256}).worstStretch, 1.0001);
+  EXPECT_LT(automatic(scene::cylinder(1.0f, 1.0f, 48, 8), {.size = 256}).worstStretch, 1.005);
 }
 
 TEST(Atlas, SmoothSurfacesNeedFewChartsOfLittleStretch) {
-  const Atlas sphere = automatic(scene::icosphere(1.0f, 4), {.size = 1024});
+  const Atlas sphere = automatic(scene::icosphere(1.0f, 4), {.size = 400});
   EXPECT_LE(sphere.charts, 8u);
   EXPECT_LT(sphere.worstStretch, 1.01);
   EXPECT_GT(sphere.usedArea, 0.55);
-  const Atlas torus = automatic(scene::torus(1.0f, 0.4f, 64, 32), {.size = 1024});
+  const Atlas torus = automatic(scene::torus(1.0f, 0.4f, 64, 32), {.size = 400});
   EXPECT_LE(torus.charts, 12u);
   EXPECT_LT(torus.worstStretch, 1.02);
   EXPECT_GT(torus.usedArea, 0.55);
