@@ -108,27 +108,29 @@ Findings checkTiling(const Patch& patch) {
       if (lies(edge, box.lower[axis])) low.push_back(edge);
       if (lies(edge, box.upper[axis])) high.push_back(edge);
     }
-    // By height along the border, so that partners are looked for among few.
+    // Along the border, so that partners are looked for among few. Any open edge may be one: the
+    // ends of threads that reach over the period do not lie at the box's other side.
     const int other = 1 - axis;
     const auto middle = [other](const Edge& e) { return 0.5f * (e[0][other] + e[1][other]); };
     const auto before = [&](const Edge& a, const Edge& b) { return middle(a) < middle(b); };
-    const auto unmatched = [&](const std::vector<Edge>& from, std::vector<Edge> to, float shift) {
-      std::sort(to.begin(), to.end(), before);
+    std::vector<Edge> sorted = open;
+    std::sort(sorted.begin(), sorted.end(), before);
+    const auto unmatched = [&](const std::vector<Edge>& from, float shift) {
       std::vector<Edge> alone;
       for (Edge edge : from) {
         for (Vec3& p : edge) p[axis] += shift;
         Edge key = edge;
         for (Vec3& p : key) p[other] -= 2.0f * tolerance;
         bool found = false;
-        for (auto it = std::lower_bound(to.begin(), to.end(), key, before);
-             it != to.end() && middle(*it) <= middle(edge) + 2.0f * tolerance && !found; ++it)
+        for (auto it = std::lower_bound(sorted.begin(), sorted.end(), key, before);
+             it != sorted.end() && middle(*it) <= middle(edge) + 2.0f * tolerance && !found; ++it)
           found = same(edge, *it, tolerance);
         if (!found) alone.push_back(edge);
       }
       return alone;
     };
-    const std::vector<Edge> a = unmatched(low, high, patch.size[axis]);
-    const std::vector<Edge> b = unmatched(high, low, -patch.size[axis]);
+    const std::vector<Edge> a = unmatched(low, patch.size[axis]);
+    const std::vector<Edge> b = unmatched(high, -patch.size[axis]);
     if (a.empty() && b.empty()) continue;
     const Edge& example = a.empty() ? b.front() : a.front();
     findings.push_back({Severity::Warning, "mesh-seam",

@@ -19,7 +19,7 @@ struct WeaveOptions {
   Vec2 size = Vec2(0.1f, 0.1f);  ///< metres: the period
   int threads = 2;               ///< along each axis in a period, even, ≥ 2
   float width = 0.84f;           ///< of a thread, in spacings of threads: above 1 the gaps close
-  float height = 0.34f;          ///< of a thread, in spacings
+  float height = 0.29f;          ///< of a thread, in spacings
   int plies = 3;                 ///< strands that a thread is twisted from; 0: smooth
   float plyDepth = 0.07f;        ///< of the grooves between strands, in radii
   float turns = 1.5f;            ///< of the twist over a spacing (rounded so that it repeats)

@@ -1,11 +1,15 @@
 #include "lambent/meso/periodic_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
+#include <unordered_map>
+
+#include "lambent/math/random.h"
 
 namespace lambent::meso {
 
@@ -25,10 +29,53 @@ scene::Mesh backingPlane(const Patch& patch, float height, int material) {
   return mesh;
 }
 
-/// The tile's triangles in one mesh, each moved by whole periods so that its centre lies in the
-/// period: the tile then reaches over the period by less than a triangle.
+/// Points whose places are the same up to whole periods, made equal to the last bit: else rays slip
+/// through where two copies of the tile meet. Places are in periods (z in periods along x).
+class PeriodicWeld {
+ public:
+  /// `place`, moved by less than kTolerance.
+  Vec3d operator()(const Vec3d& place) {
+    const Vec3d whole(std::floor(place.x()), std::floor(place.y()), 0.0);
+    const Vec3d inside = place - whole;
+    // The cells that the tolerance reaches into: one, but for points near a cell's side.
+    std::array<std::array<std::int64_t, 2>, 3> reach;
+    for (int a = 0; a < 3; ++a)
+      reach[a] = {static_cast<std::int64_t>(std::floor((inside[a] - kTolerance) * kCells)),
+                  static_cast<std::int64_t>(std::floor((inside[a] + kTolerance) * kCells))};
+    for (std::int64_t i = reach[0][0]; i <= reach[0][1]; ++i)
+      for (std::int64_t j = reach[1][0]; j <= reach[1][1]; ++j)
+        for (std::int64_t k = reach[2][0]; k <= reach[2][1]; ++k) {
+          const auto [begin, end] = known_.equal_range(keyOf(i, j, k));
+          for (auto it = begin; it != end; ++it) {
+            const Vec3d apart = inside - it->second;
+            const Vec3d periods(std::round(apart.x()), std::round(apart.y()), 0.0);
+            if ((apart - periods).cwiseAbs().maxCoeff() <= kTolerance)
+              return it->second + periods + whole;
+          }
+        }
+    // On a grid of 2⁻⁴⁰, adding whole periods is exact.
+    const Vec3d rounded = (inside.array() * 0x1p40).round() * 0x1p-40;
+    const auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(x * kCells)); };
+    known_.emplace(keyOf(cell(rounded.x()), cell(rounded.y()), cell(rounded.z())), rounded);
+    return rounded + whole;
+  }
+
+ private:
+  static constexpr std::int64_t kCells = 1 << 15;  ///< in a period
+  static constexpr double kTolerance = 1e-6;
+
+  static std::uint64_t keyOf(std::int64_t i, std::int64_t j, std::int64_t k) {
+    const auto x = static_cast<std::uint64_t>((i + kCells) % kCells);
+    const auto y = static_cast<std::uint64_t>((j + kCells) % kCells);
+    return math::hashCombine(x * kCells + y, static_cast<std::uint64_t>(k));
+  }
+  std::unordered_multimap<std::uint64_t, Vec3d> known_;
+};
+
+/// The tile's triangles in one mesh, in periods, each moved by whole periods so that its centre
+/// lies in the period: the tile then reaches over the period by less than a triangle.
 struct Canonical {
-  std::vector<Vec3d> positions;
+  std::vector<Vec3d> places;
   std::vector<scene::Triangle> triangles;
   Vec3d lower = Vec3d::Constant(std::numeric_limits<double>::infinity());
   Vec3d upper = -lower;
@@ -36,24 +83,26 @@ struct Canonical {
 
 Canonical canonicalTile(const scene::Scene& tile, const Vec2& size) {
   Canonical canonical;
+  PeriodicWeld weld;
+  const Vec3d period(size.x(), size.y(), size.x());
   for (const scene::Mesh& mesh : tile.meshes) {
+    std::vector<Vec3d> places;
+    places.reserve(mesh.positions.size());
+    for (const Vec3& p : mesh.positions)
+      places.push_back(weld(p.cast<double>().cwiseQuotient(period)));
     std::map<std::tuple<std::uint32_t, int, int>, std::uint32_t> moved;
     for (const scene::Triangle& t : mesh.triangles) {
-      const Vec3d centre =
-          (mesh.positions[t[0]].cast<double>() + mesh.positions[t[1]].cast<double>() +
-           mesh.positions[t[2]].cast<double>()) /
-          3.0;
-      const int x = static_cast<int>(std::floor(centre.x() / double(size.x())));
-      const int y = static_cast<int>(std::floor(centre.y() / double(size.y())));
+      const Vec3d centre = (places[t[0]] + places[t[1]] + places[t[2]]) / 3.0;
+      const int x = static_cast<int>(std::floor(centre.x()));
+      const int y = static_cast<int>(std::floor(centre.y()));
       scene::Triangle out;
       for (int k = 0; k < 3; ++k) {
         const auto [at, isNew] =
-            moved.emplace(std::tuple(t[k], x, y), std::uint32_t(canonical.positions.size()));
+            moved.emplace(std::tuple(t[k], x, y), std::uint32_t(canonical.places.size()));
         out[k] = at->second;
         if (!isNew) continue;
-        const Vec3d p = mesh.positions[t[k]].cast<double>() -
-                        Vec3d(x * double(size.x()), y * double(size.y()), 0.0);
-        canonical.positions.push_back(p);
+        const Vec3d p = places[t[k]] - Vec3d(x, y, 0.0);
+        canonical.places.push_back(p);
         canonical.lower = canonical.lower.cwiseMin(p);
         canonical.upper = canonical.upper.cwiseMax(p);
       }
@@ -64,17 +113,17 @@ Canonical canonicalTile(const scene::Scene& tile, const Vec2& size) {
 }
 
 /// Tile after tile, so that a triangle's number in the tile is its number modulo their count.
-/// Positions are rounded once, from doubles: neighbours meet exactly.
 scene::Mesh blockOf(const Canonical& tile, const Vec2& size, int across) {
   scene::Mesh block;
-  block.positions.reserve(tile.positions.size() * across * across);
+  block.positions.reserve(tile.places.size() * across * across);
   block.triangles.reserve(tile.triangles.size() * across * across);
+  const Vec3d period(size.x(), size.y(), size.x());
   for (int j = 0; j < across; ++j)
     for (int i = 0; i < across; ++i) {
-      const Vec3d shift((i - across / 2) * double(size.x()), (j - across / 2) * double(size.y()),
-                        0.0);
+      const Vec3d shift(i - across / 2, j - across / 2, 0.0);
       const auto first = static_cast<std::uint32_t>(block.positions.size());
-      for (const Vec3d& p : tile.positions) block.positions.push_back((p + shift).cast<float>());
+      for (const Vec3d& p : tile.places)
+        block.positions.push_back((p + shift).cwiseProduct(period).cast<float>());
       for (const scene::Triangle& t : tile.triangles)
         block.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
@@ -117,8 +166,8 @@ Result<PeriodicScene> PeriodicScene::build(const Patch& patch, std::size_t block
   scene::Scene block;
   block.materials.emplace_back();
   block.meshes.push_back(blockOf(canonical, patch.size, across));
-  // A ray that slips between two triangles comes to nothing: below the patch there is no light.
-  Result<trace::RayScene> rays = trace::RayScene::build(block, trace::Edges::Fast);
+  // Rays that run exactly along an edge are common here: samples and heights lie on like grids.
+  Result<trace::RayScene> rays = trace::RayScene::build(block, trace::Edges::Watertight);
   if (!rays) return rays.error();
   PeriodicScene out(std::move(*rays));
   out.tile_ = std::move(tile);
@@ -130,12 +179,13 @@ Result<PeriodicScene> PeriodicScene::build(const Patch& patch, std::size_t block
   out.offset_ = 2e-5f * diagonal;
   for (int a = 0; a < 2; ++a) {
     const double size = patch.size[a];
-    const double low = -(across / 2) * size + std::max(0.0, canonical.upper[a] - size);
-    const double high = (across - across / 2) * size - std::max(0.0, -canonical.lower[a]);
-    if (low > -0.5 * size || high < 1.5 * size)
+    const double low = -(across / 2) + std::max(0.0, canonical.upper[a] - 1.0);
+    const double high = (across - across / 2) - std::max(0.0, -canonical.lower[a]);
+    if (low > -0.25 || high < 1.25)
       return report::badInput(patch.name + ": a triangle is larger than the patch's period of " +
                               std::to_string(size) + " m; is the size right?");
-    out.lower_[a] = static_cast<float>(low), out.upper_[a] = static_cast<float>(high);
+    out.lower_[a] = static_cast<float>(low * size);
+    out.upper_[a] = static_cast<float>(high * size);
   }
   return out;
 }

@@ -90,7 +90,7 @@ image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoeffici
 
 image::Image preview(const RadianceTransferTexture& rtt, int pixels) {
   constexpr int kGap = 4;
-  const std::array<Vec3, 2> eyes = {Vec3(0, 0, 1), Vec3(0.26f, -0.79f, 0.55f).normalized()};
+  const std::array<Vec3, 2> eyes = {Vec3(0, 0, 1), Vec3(0.2f, -0.72f, 0.66f).normalized()};
   const std::array<sh::RgbCoefficients, 3> lights = {
       discLight(rtt.bands, Vec3(-0.6f, 0.5f, 0.62f).normalized(), 0.35),
       discLight(rtt.bands, Vec3(0.85f, 0.1f, 0.5f).normalized(), 0.35),

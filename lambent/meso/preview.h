@@ -30,7 +30,7 @@ struct SquarePicture {
 image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoefficients& light,
                        const SquarePicture& options);
 
-/// Six pictures: from above and from 60° off, under a small light from the upper left, the same
+/// Six pictures: from above and from 49° off, under a small light from the upper left, the same
 /// from the right, and an even sky. Linear radiance.
 image::Image preview(const RadianceTransferTexture& rtt, int pixels = 384);
 

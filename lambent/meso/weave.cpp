@@ -1,5 +1,6 @@
 // This work is based on:
 // - sloan2003biscale: §4.2, "the weave example consists of interleaved, deformed cylinders".
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -11,12 +12,13 @@ namespace lambent::meso {
 
 namespace {
 
-/// One thread before it is laid along an axis: s runs along it in spacings, `phase` says whether it
-/// begins above (0) or below (1).
+/// One thread before it is laid along an axis: s runs along it in `spacing`s between the threads
+/// that it crosses; `phase` says whether it begins above (0) or below (1). Width and height in
+/// metres.
 class Thread {
  public:
-  Thread(const WeaveOptions& options, double spacing, int phase)
-      : options_(options), spacing_(spacing), phase_(phase) {
+  Thread(const WeaveOptions& options, double spacing, double width, double height, int phase)
+      : options_(options), spacing_(spacing), width_(width), height_(height), phase_(phase) {
     // Whole turns in a period of the weave.
     turns_ = std::round(options.turns * options.threads) / options.threads;
   }
@@ -24,15 +26,15 @@ class Thread {
   /// A point of the surface in (along, sideways, up), metres. angle 0 is its side, ¼ turn its top.
   Vec3d point(double s, double angle) const {
     const double a = kPi * (s + phase_);
-    const double swing = 0.54 * options_.height * spacing_;  // over and under by a little more than
-                                                             // half a thread: they hardly touch
+    const double swing = 0.54 * height_;  // over and under by a little more than
+                                          // half a thread: they hardly touch
     const Vec3d centre(s * spacing_, 0.0, swing * std::cos(a));
     const double slope = -swing * kPi / spacing_ * std::sin(a);
     const Vec3d up = Vec3d(-slope, 0.0, 1.0).normalized();
     // Pressed flat and wide at the crossings, rounder between them.
     const double flat = 0.06 * std::cos(2.0 * a);
-    const double halfWidth = 0.5 * options_.width * spacing_ * (1.0 + flat);
-    const double halfHeight = 0.5 * options_.height * spacing_ * (1.0 - flat);
+    const double halfWidth = 0.5 * width_ * (1.0 + flat);
+    const double halfHeight = 0.5 * height_ * (1.0 - flat);
     double groove = 1.0;
     if (options_.plies > 0) {
       const double twist = options_.plies * (angle + 2.0 * kPi * turns_ * s);
@@ -55,7 +57,7 @@ class Thread {
 
  private:
   const WeaveOptions& options_;
-  double spacing_, turns_;
+  double spacing_, width_, height_, turns_;
   int phase_;
 };
 
@@ -117,11 +119,12 @@ Patch weave(const WeaveOptions& options) {
     scene::Mesh& mesh = patch.scene.meshes[kind];
     mesh.name = kind == 0 ? "warp" : "weft";
     mesh.material = kind;
-    // The warp's length lies along y, the weft's along x; either is as thick as the smaller spacing
-    // allows. Crossings lie at whole numbers of s, shifted to the middles of cells.
+    // The warp's length lies along y, the weft's along x; both are as thick as the smaller spacing
+    // says. Crossings lie at whole numbers of s, shifted to the middles of cells.
     const double spacing = across[kind == 0 ? 1 : 0], sideways = across[kind];
     for (int t = 0; t < options.threads; ++t) {
-      const Thread thread(options, spacing, (t + kind) % 2);
+      const Thread thread(options, spacing, options.width * sideways,
+                          options.height * std::min(across[0], across[1]), (t + kind) % 2);
       const double offset = (t + 0.5) * sideways, start = 0.5 * spacing;
       append(
           mesh, thread, options,
