@@ -22,10 +22,10 @@
 #include <string>
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/synthesis/connection_solver.h"
 #include "lambent/synthesis/frames.h"
 #include "lambent/synthesis/manifold.h"
 
@@ -33,8 +33,8 @@ namespace lambent::synthesis {
 namespace {
 
 using Complex = std::complex<double>;
-using Field = Eigen::VectorXcd;
-using Matrix = Eigen::SparseMatrix<Complex>;
+using Field = ConnectionSolver::Field;
+using Matrix = ConnectionSolver::Matrix;
 constexpr std::uint32_t kNone = Manifold::kNone;
 
 /// Per vertex of the manifold a plane with axes x and y, and per half-edge its angle in there.
@@ -152,7 +152,6 @@ Field project(const TangentPlanes& p, const Vec3d& direction) {
   return u;
 }
 
-using Solver = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
 constexpr const char* kNoMemory =
     "the tangent field's matrix could not be factorised; a mesh with fewer vertices may fit";
 
@@ -163,8 +162,8 @@ Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
   constexpr int kIterations = 60;
   std::vector<double> shift(p.mass.size());
   for (std::size_t i = 0; i < shift.size(); ++i) shift[i] = kShift * p.mass[i];
-  Solver solver(laplacian(m, p, 1.0, shift));
-  if (solver.info() != Eigen::Success) return report::failed(kNoMemory);
+  const ConnectionSolver solver(laplacian(m, p, 1.0, shift));
+  if (!solver.ok()) return report::failed(kNoMemory);
 
   Field u = project(p, Vec3d(0.003, 1.0, 0.001));
   // A symmetric surface may have a smoothest field that is orthogonal to that.
@@ -176,7 +175,12 @@ Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Field b = u;
     for (Eigen::Index i = 0; i < b.size(); ++i) b[i] *= p.mass[std::size_t(i)];
-    u = solver.solve(b);
+    // Where components differ in their eigenvalues the guess is right for each.
+    Field guess = u;
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+      guess[i] *= last[m.componentOfVertex[std::size_t(i)]];
+    }
+    u = solver.solve(b, guess, 1e-5);
     // As u has unit length before, its length now tends to the inverse of the least eigenvalue.
     std::fill(norm.begin(), norm.end(), 0.0);
     for (Eigen::Index i = 0; i < u.size(); ++i) {
@@ -185,7 +189,7 @@ Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
     bool settled = iteration > 4;
     for (std::size_t k = 0; k < norm.size(); ++k) {
       norm[k] = std::sqrt(norm[k]);
-      settled = settled && std::abs(norm[k] - last[k]) <= 1e-6 * norm[k];
+      settled = settled && std::abs(norm[k] - last[k]) <= 1e-5 * norm[k];
     }
     last = norm;
     for (Eigen::Index i = 0; i < u.size(); ++i) {
@@ -209,9 +213,9 @@ Result<Field> steered(const Manifold& m, const TangentPlanes& p, const Vec3d& di
     diagonal[i] = pull * p.mass[i];
     b[Eigen::Index(i)] *= diagonal[i];
   }
-  Solver solver(laplacian(m, p, smooth, diagonal));
-  if (solver.info() != Eigen::Success) return report::failed(kNoMemory);
-  return Field(solver.solve(b));
+  const ConnectionSolver solver(laplacian(m, p, smooth, diagonal));
+  if (!solver.ok()) return report::failed(kNoMemory);
+  return solver.solve(b, project(p, direction), 1e-7);
 }
 
 std::vector<TangentField::Singularity> singularities(const Manifold& m, const TangentPlanes& p,

@@ -8,6 +8,7 @@
 #include "lambent/math/random.h"
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/synthesis/connection_solver.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -189,6 +190,32 @@ TEST(TangentField, TrianglesWithoutAreaAreSurvived) {
   mesh.triangles = {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}};
   mesh.normals.assign(5, Vec3::UnitZ());
   fieldOf(mesh);
+}
+
+TEST(TangentField, LargeMeshesAreSolvedAsSmallOnesAre) {
+  // The Laplacian of a twisted ladder, above and below the size that is factorised.
+  using Complex = ConnectionSolver::Complex;
+  const int n = 4000;
+  std::vector<Eigen::Triplet<Complex>> entries;
+  std::vector<double> diagonal(n, 1e-3);
+  for (int i = 0; i < n; ++i) {
+    for (int step : {1, 7, 60}) {
+      if (i + step >= n) continue;
+      const double w = 0.5 + double(math::Random(5, std::uint64_t(i)).uniform());
+      entries.emplace_back(i + step, i, -std::polar(w, 0.01 * step + 1e-4 * i));
+      diagonal[std::size_t(i)] += w, diagonal[std::size_t(i + step)] += w;
+    }
+  }
+  for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[std::size_t(i)]);
+  ConnectionSolver::Matrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  ConnectionSolver::Field b(n);
+  for (int i = 0; i < n; ++i) b[i] = Complex(std::sin(0.01 * i), std::cos(0.3 * i));
+  const ConnectionSolver direct(matrix), iterated(matrix, 100);
+  ASSERT_TRUE(direct.ok() && iterated.ok());
+  const ConnectionSolver::Field zero = ConnectionSolver::Field::Zero(n);
+  const ConnectionSolver::Field x = direct.solve(b, zero, 0.0);
+  EXPECT_LT((iterated.solve(b, zero, 1e-10) - x).norm(), 1e-6 * x.norm());
 }
 
 TEST(TangentField, WrongUsageIsToldApart) {
