@@ -2,6 +2,8 @@
 //
 // usage: lambent_figures INPUTS OUTPUT [--quick] [NAME …]
 //   NAME: figure3 figure9 figure10 figure11 figure12 table1 diffuse-accuracy glossy-accuracy
+//         biscale-truth biscale-figure1 biscale-figure3 biscale-figure4 biscale-figure5
+//         biscale-figure6 biscale-vase biscale-filter biscale-encodings biscale-rtt-methods
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "figures/accuracy.h"
+#include "figures/biscale.h"
 #include "figures/pictures.h"
 
 int main(int argc, char** argv) {
@@ -23,7 +26,17 @@ int main(int argc, char** argv) {
       {"figure12", figure12},
       {"table1", table1},
       {"diffuse-accuracy", diffuseAccuracy},
-      {"glossy-accuracy", glossyAccuracy}};
+      {"glossy-accuracy", glossyAccuracy},
+      {"biscale-truth", biscaleTruth},
+      {"biscale-figure1", biscaleFigure1},
+      {"biscale-figure3", biscaleFigure3},
+      {"biscale-figure4", biscaleFigure4},
+      {"biscale-figure5", biscaleFigure5},
+      {"biscale-figure6", biscaleFigure6},
+      {"biscale-vase", biscaleVase},
+      {"biscale-filter", biscaleFilter},
+      {"biscale-encodings", biscaleEncodings},
+      {"biscale-rtt-methods", biscaleRttMethods}};
   Studio studio;
   std::vector<std::string> words(argv + 1, argv + argc), wanted;
   std::vector<std::string> places;

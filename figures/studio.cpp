@@ -16,16 +16,10 @@
 
 namespace lambent::figures {
 
-namespace {
-
-template <class T>
-T orDie(Result<T> result) {
-  if (result) return std::move(*result);
-  fmt::print(stderr, "figures: {}\n", result.error().message);
+void die(const std::string& message) {
+  fmt::print(stderr, "figures: {}\n", message);
   std::exit(1);
 }
-
-}  // namespace
 
 scene::Scene Studio::load(const std::string& file) const {
   return orDie(scene_io::load(inputs / file)).scene;

@@ -12,6 +12,15 @@
 
 namespace lambent::figures {
 
+[[noreturn]] void die(const std::string& message);
+
+/// What a figure needs and can not do without.
+template <class T>
+T orDie(Result<T> result) {
+  if (!result) die(result.error().message);
+  return std::move(*result);
+}
+
 struct Studio {
   std::filesystem::path inputs;  ///< bunny.obj, hdri/, dragon/, teapot.obj
   std::filesystem::path output;  ///< where pictures go

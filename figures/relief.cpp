@@ -1,0 +1,66 @@
+#include "figures/relief.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "lambent/meso/effective_albedo.h"
+#include "lambent/render/gl_picture.h"
+#include "lambent/sh/window.h"
+
+namespace lambent::figures {
+
+BuiltRtt build(const meso::Patch& patch, const meso::RttOptions& options) {
+  BuiltRtt built;
+  Findings findings;
+  const auto start = std::chrono::steady_clock::now();
+  built.rtt = orDie(meso::buildRtt(patch, options, {}, findings, &built.cost));
+  built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return built;
+}
+
+meso::RttOptions rttOptions(const Studio& studio) {
+  meso::RttOptions options;
+  if (studio.quick) options.width = options.height = 32, options.directions = 128;
+  return options;
+}
+
+bi_scale::Spread spread(const scene::Scene& scene, const meso::RadianceTransferTexture& rtt,
+                        bi_scale::SpreadOptions options) {
+  options.albedo = meso::effectiveAlbedo(rtt);
+  options.transfer.bands = rtt.bands;
+  Findings findings;
+  return orDie(bi_scale::spreadPatch(scene, encode::encode(rtt, encode::Encoding::Float32), options,
+                                     {}, findings));
+}
+
+image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                        const shade::BiScaleOptions& options, const Shot& shot) {
+  shade::PictureOptions picture;
+  picture.width = shot.width, picture.height = shot.height, picture.samples = shot.samples;
+  picture.biScale = options;
+  return orDie(
+      render::picture(asset, light, light::Environment::harmonics(light), shot.camera, picture));
+}
+
+sh::RgbCoefficients fiveBands(const light::Environment& environment) {
+  sh::RgbCoefficients light = environment.project(5);
+  sh::applyWindow(sh::minimalRinging(light), light);
+  return light;
+}
+
+sh::RgbCoefficients smallestLight(const Vec3& direction, const Rgb& irradiance) {
+  return light::Environment::directional(direction, irradiance).project(5);
+}
+
+light::Environment discLight(const Vec3& direction, double diameterDegrees, const Rgb& irradiance) {
+  const double sine = std::sin(0.5 * diameterDegrees * kPi / 180.0);
+  return light::Environment::disc(direction, diameterDegrees * kPi / 180.0,
+                                  irradiance / float(kPi * sine * sine));
+}
+
+Vec3 towards(float azimuth, float elevation) {
+  const float a = azimuth * float(kPi) / 180.0f, e = elevation * float(kPi) / 180.0f;
+  return Vec3(std::cos(a) * std::cos(e), std::sin(e), std::sin(a) * std::cos(e));
+}
+
+}  // namespace lambent::figures
