@@ -33,6 +33,8 @@ constexpr std::size_t kManyCharts = 2000;
 
 /// With no more charts than this, several sequences are tried.
 constexpr std::size_t kFewCharts = 200;
+/// With more, each looks for a place no lower than the last few have found one.
+constexpr std::size_t kRecent = 48;
 constexpr std::uint64_t kShuffles = 10;
 
 struct Mask {
@@ -206,12 +208,12 @@ class Ground {
   struct Place {
     int x, y;
   };
-  /// The lowest place, and there the leftmost, whose top stays below `limit`.
-  std::optional<Place> find(const Footprint& footprint, int limit) const {
+  /// The lowest place from row `lowest` on, and there the leftmost, whose top stays below `limit`.
+  std::optional<Place> find(const Footprint& footprint, int lowest, int limit) const {
     const int lastX = size_ - footprint.width;
     const int lastY = std::min(size_, limit) - footprint.height;
     const Span& widest = footprint.spans.front();
-    for (int y = 0; y <= lastY; ++y) {
+    for (int y = lowest; y <= lastY; ++y) {
       if (room_[y + widest.row] <= widest.last - widest.first) continue;
       int x = 0;
       std::size_t free = 0, at = 0;  // consecutive spans that fit at x
@@ -306,10 +308,15 @@ std::optional<Packing> tryToPack(const std::vector<PackShape>& shapes, const Ord
   packing.scale = scale;
   packing.placements.resize(shapes.size());
   Ground ground(size);
+  // Of many charts, in falling sequence of size, those just placed tell where there is still room.
+  std::vector<int> recent;
+  std::size_t placed = 0;
   for (const std::uint32_t c : order.charts) {
     const PackShape& shape = shapes[c];
     const double own = std::max(scale, std::sqrt(kLeastArea / shape.area));
     int limit = size + 1;
+    const int lowest =
+        recent.size() < kRecent ? 0 : *std::min_element(recent.begin(), recent.end());
     std::optional<Ground::Place> best;
     Footprint chosen;
     for (int half = 0; half < (thorough ? 2 : 1); ++half) {
@@ -321,7 +328,7 @@ std::optional<Packing> tryToPack(const std::vector<PackShape>& shapes, const Ord
         if (quarter > 0) footprint = quarterTurn(footprint);
         footprint.spans.clear();
         setSpans(footprint, gutter);
-        if (const auto place = ground.find(footprint, limit - 1)) {
+        if (const auto place = ground.find(footprint, lowest, limit - 1)) {
           best = place;
           limit = place->y + footprint.height;
           chosen = footprint;
@@ -330,6 +337,13 @@ std::optional<Packing> tryToPack(const std::vector<PackShape>& shapes, const Ord
     }
     if (!best) return std::nullopt;
     ground.take(chosen, *best, gutter);
+    if (shapes.size() > kFewCharts) {
+      if (recent.size() < kRecent)
+        recent.push_back(best->y);
+      else
+        recent[placed % kRecent] = best->y;
+      ++placed;
+    }
     packing.placements[c] = chosen.placement;
     packing.placements[c].offset += Vec2d(best->x + gutter, best->y + gutter);
   }
