@@ -23,14 +23,17 @@ struct TangentField {
   std::vector<Vec3> tangents;  ///< one per vertex of the mesh, unit, at right angles to the normal
   struct Singularity {
     std::uint32_t triangle;
-    int index;  ///< +1 or −1; over a closed surface they sum to its Euler characteristic
+    /// +1 or −1, rarely more; over a closed surface they sum to its Euler characteristic.
+    int index;
   };
   std::vector<Singularity> singularities;
 };
 
 /// Vertices of equal position share one tangent plane (the mean normal) and one tangent, which is
 /// then turned into each vertex's own plane: borders of UVs leave no seam. Any mesh will do: open,
-/// of several components, of any genus; what is non-manifold is told in `findings`.
+/// of several components, of any genus. It is cut along edges of three triangles or more and
+/// between triangles wound against each other, which `findings` tell. BadInput for a mesh without
+/// triangles.
 Result<TangentField> tangentField(const scene::Mesh& mesh, const TangentFieldOptions& options,
                                   Findings& findings);
 
