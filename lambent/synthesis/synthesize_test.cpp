@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstring>
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <Eigen/Geometry>
 
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
