@@ -1,4 +1,4 @@
-// Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L), sloan2003bi eq.
+// Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L), sloan2003biscale eq.
 // 4, as shade::LitPatch. Alpha is coverage.
 //
 // Numbers of a position and view are coefficient after coefficient, each R, G, B, in groups of

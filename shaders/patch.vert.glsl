@@ -1,5 +1,5 @@
 // A surface with meso-structure: vertices are pulled from buffers by their index. What the
-// rasteriser interpolates is the light that arrives at the meso-structure, M L (sloan2003bi §5).
+// rasteriser interpolates is the light that arrives at the meso-structure, M L (sloan2003biscale §5).
 //
 // Before this text stand: #define LAMBENT_GROUPS, the light's numbers in groups of four, and
 // LAMBENT_INTERPOLATED 1, or 0 where the rasteriser does not take as many.

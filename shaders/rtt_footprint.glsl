@@ -1,7 +1,7 @@
 // lambent/shade/rtt_footprint.h in GLSL: where its formulas are explained. A table test holds the
 // two together.
 //
-// Before this text stand: #define LAMBENT_MOST_PROBES, LAMBENT_LEAST_COSINE, LAMBENT_LEVEL_BIAS.
+// Before this text stand: #define LAMBENT_MOST_PROBES, LAMBENT_LEAST_COSINE.
 
 struct Probes {
   float level;
@@ -36,6 +36,6 @@ Probes probesOf(vec2 longer, vec2 shorter, vec2 positions) {
     float n = float(probes.count);
     probes.stride = along * (sqrt(beyond / (n * n - 1.0)) / a);
   }
-  probes.level = max(0.0, log2(width) + LAMBENT_LEVEL_BIAS);
+  probes.level = log2(width);
   return probes;
 }

@@ -1,6 +1,6 @@
 // Radiance that reaches receivers, M L, times a factor for each row. Glossy: convolved with their
 // lobe, α_i G_i (M L)_i k (sloan2002precomputed eq. 9 and 12). Under meso-structure: the factors are
-// the scales of its texture's coefficients (sloan2003bi eq. 4). One invocation for each receiver and
+// the scales of its texture's coefficients (sloan2003biscale eq. 4). One invocation for each receiver and
 // row.
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,6 @@
 // This work is based on:
-// - sloan2003bi: bi-scale radiance transfer, §5, with what hardware has learnt since: the light at
+// - sloan2003biscale: bi-scale radiance transfer, §5, with what hardware has learnt since: the
+// light at
 //   the vertices is made by a compute pass, and the texture of 4 + 1 dimensions is a buffer that a
 //   fragment reads 16 bytes at a time.
 //
@@ -113,6 +114,11 @@ void pack(const float* numbers, int stride, Encoding encoding, std::span<const f
 
 }  // namespace
 
+std::string footprintDefines() {
+  return fmt::format("#define LAMBENT_MOST_PROBES {}\n#define LAMBENT_LEAST_COSINE {:#}\n",
+                     shade::kMostProbes, shade::kLeastCosine);
+}
+
 Status GlPatches::addRtt(int index) {
   if (rtts_.contains(index)) return Status::ok();
   const EncodedRtt& from = asset_->transfer.rtts[std::size_t(index)];
@@ -194,12 +200,10 @@ Status GlPatches::addProgram(int bands, Encoding encoding) {
   glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
   const bool interpolated = 4 * (groupsOf(bands) + 3) <= mostVaryings;
   const std::string defines = fmt::format(
-      "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER "
-      "{:d}\n{}"
-      "\n#define LAMBENT_MOST_PROBES {}\n#define LAMBENT_LEAST_COSINE {:#}\n"
-      "#define LAMBENT_LEVEL_BIAS {:#}",
+      "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
+      "#define LAMBENT_FILTER {:d}\n{}\n{}",
       groupsOf(bands), interpolated, options_.biScale.filter, numbersDefine(encoding),
-      shade::kMostProbes, shade::kLeastCosine, shade::kLevelBias);
+      footprintDefines());
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",
                                     {defines, std::string(shaderSource("patch.vert.glsl"))}},

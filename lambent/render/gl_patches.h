@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -14,6 +15,9 @@
 #include "lambent/shade/bi_scale_options.h"
 
 namespace lambent::render {
+
+/// What shaders/rtt_footprint.glsl wants before it.
+std::string footprintDefines();
 
 struct GlPatchOptions {
   std::size_t largestBlock = 0;  ///< bytes of one storage buffer

@@ -1,5 +1,5 @@
 // This work is based on:
-// - sloan2003bi: bi-scale radiance transfer, eq. 4 as §5 evaluates it: M_p L at the receivers,
+// - sloan2003biscale: bi-scale radiance transfer, eq. 4 as §5 evaluates it: M_p L at the receivers,
 //   linear between them; the spatial index q from the id map; B(q, v) · (M_p L) per sub-sample.
 //
 // Beyond it: B is averaged over what the sub-sample covers of the patch (rtt_footprint.h). Across

@@ -1,4 +1,4 @@
-// Where on the patch a place of the surface lies: q(u) of sloan2003bi §3.
+// Where on the patch a place of the surface lies: q(u) of sloan2003biscale §3.
 #pragma once
 
 #include <cstdint>

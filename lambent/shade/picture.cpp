@@ -3,7 +3,7 @@
 // surface, and the lobe-convolved coefficients of transferred radiance of a glossy one, which are
 // evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows the
 // environment, unblocked: "a traditional environment map". With meso-structure it is the light that
-// arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003bi §5).
+// arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003biscale §5).
 
 #include "lambent/shade/picture.h"
 

@@ -50,7 +50,7 @@ RttProbes probesOf(const Vec2& longer, const Vec2& shorter, const Vec2& position
     const float n = float(probes.count);
     probes.step = along * (std::sqrt(beyond / (n * n - 1.0f)) / a);
   }
-  probes.level = std::max(0.0f, std::log2(width) + kLevelBias);
+  probes.level = std::log2(width);
   return probes;
 }
 

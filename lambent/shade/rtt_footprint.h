@@ -36,9 +36,10 @@ struct RttProbes {
   Vec2 step = Vec2::Zero();  ///< … this far apart: q, periods of the patch
 };
 
+/// For an oblique plane at one sample a pixel, RMSE against 256 was 0.047 unfiltered and 0.030,
+/// 0.021, 0.016, 0.014 with 1, 2, 4, 8 probes. Finer levels (a bias of −½, −1) gained at most a
+/// tenth there, lost as much on a distant ball, and crawled more.
 inline constexpr int kMostProbes = 4;
-/// Added to the level.
-inline constexpr float kLevelBias = 0.0f;
 
 /// `longer` and `shorter`: the two axes of the footprint on the surface, as they lie in the patch
 /// (q, periods of the patch); positions: of level 0, along x and y.

@@ -1,5 +1,5 @@
 // This work is based on:
-// - sloan2003bi: §5, "Accessing the RTT": bilinear over views, nearest over positions.
+// - sloan2003biscale: §5, "Accessing the RTT": bilinear over views, nearest over positions.
 // - shirley1997low: the square of the view samples (math::squareFromHemisphere).
 // - williams1983pyramidal: between positions and levels of the pyramid.
 //

@@ -1,4 +1,4 @@
-// Reading the radiance transfer texture: B(q, v) of sloan2003bi eq. 4, applied to light.
+// Reading the radiance transfer texture: B(q, v) of sloan2003biscale eq. 4, applied to light.
 #pragma once
 
 #include <array>

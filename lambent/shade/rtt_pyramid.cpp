@@ -1,5 +1,6 @@
 // This work is based on:
-// - williams1983pyramidal: pyramidal parametrics. Of sloan2003bi's future work ("improved filtering
+// - williams1983pyramidal: pyramidal parametrics. Of sloan2003biscale's future work ("improved
+// filtering
 //   over the RTTs spatial index"): radiance is linear in B, so the mean of B over a stretch of the
 //   patch, under one macro-scale light, is the mean of the radiance there.
 //

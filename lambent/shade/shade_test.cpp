@@ -142,7 +142,12 @@ TEST(Kernels, EveryInstructionSetDecodesEveryHalf) {
   // One coefficient and a light of 1: the kernel's output is its input.
   std::vector<std::uint16_t> halves(1 << 16);
   for (std::size_t i = 0; i < halves.size(); ++i) halves[i] = std::uint16_t(i);
-  const std::vector<float> expected = encode::decode({Encoding::Float16, halves, {}});
+  const std::vector<float> expected = encode::decode([&] {
+    encode::Numbers numbers;
+    numbers.encoding = Encoding::Float16;
+    numbers.half = halves;
+    return numbers;
+  }());
   const float light[3] = {1.0f, 1.0f, 1.0f};
   for (const math::Isa isa : machineIsas()) {
     std::vector<float> out(3 * halves.size());
@@ -264,7 +269,7 @@ TEST(ExitRadiance, GlossyIsTheIntegralOverTheLobe) {
     for (const float exponent : {0.0f, 4.0f, 16.0f, 64.0f}) {
       const asset::Asset asset = openGlossyPoint(bands, normal, 1.0f);
       const sh::RgbCoefficients light = randomLight(bands, 21);
-      const Rgb out = exitRadiance(asset, 0, light, {eye, exponent})[0];
+      const Rgb out = exitRadiance(asset, 0, light, {eye, exponent, {}})[0];
 
       // Midpoints in cos θ and azimuth around R; the integrand is smooth on the hemisphere.
       const Vec3d t = reflected.unitOrthogonal(), b = reflected.cross(t);
@@ -290,7 +295,7 @@ TEST(ExitRadiance, SeesAlongTheNormalWithoutAnEye) {
   const asset::Asset asset = openGlossyPoint(4, normal, 10.0f);
   const sh::RgbCoefficients light = randomLight(4, 2);
   const Rgb along = exitRadiance(asset, 0, light)[0];
-  const Rgb eye = exitRadiance(asset, 0, light, {Vec3(3.0f * normal), {}})[0];
+  const Rgb eye = exitRadiance(asset, 0, light, {Vec3(3.0f * normal), {}, {}})[0];
   EXPECT_TRUE(along.isApprox(eye, 1e-5f));
 }
 

@@ -1,0 +1,243 @@
+// Surfaces with meso-structure by OpenGL against the CPU, and the shaders' formulas against the
+// library's.
+
+#include "lambent/render/gl_patches.h"
+
+#include <gtest/gtest.h>
+
+#include "lambent/math/directions.h"
+#include "lambent/render/gl_context.h"
+#include "lambent/render/gl_picture_in_blocks.h"
+#include "lambent/render/renderer.h"
+#include "lambent/render/shader_sources.h"
+#include "lambent/render/test_agreement.h"
+#include "lambent/scene/shapes.h"
+#include "lambent/shade/test_assets.h"
+#include "lambent/shade/test_patches.h"
+
+namespace lambent::render {
+namespace {
+
+using encode::Encoding;
+using shade::MacroTransport;
+using shade::test::addPatched;
+using shade::test::bumpyRtt;
+using shade::test::SpreadOptions;
+using test::expectAgreement;
+
+const scene::Camera kCamera = shade::test::cameraAt(Vec3(1.0f, 1.0f, 3.5f), Vec3(0, -0.2f, 0));
+
+shade::PictureOptions small(int samples) {
+  shade::PictureOptions options;
+  options.width = 128;
+  options.height = 96;
+  options.samples = samples;
+  return options;
+}
+
+/// A ball over a floor that reaches into the distance.
+asset::Asset ballAndFloor(const SpreadOptions& options, int bands = 5, int views = 8) {
+  asset::Asset asset;
+  addPatched(asset, scene::uvSphere(1.0f, 32, 16), bumpyRtt(24, 16, views, bands), options);
+  addPatched(asset, scene::translated(scene::gridPlane(12, 12, 4, 4), Vec3(0, -1, 0)),
+             bumpyRtt(16, 16, views, bands), options);
+  return asset;
+}
+
+SpreadOptions mapped() {
+  SpreadOptions options;
+  options.idMap = shade::test::patchworkMap(96, 64, Vec2(5, 3));
+  return options;
+}
+
+// Bytes are rounded on the GPU on every level, where the CPU averages what they stand for.
+const test::Agreement kOfBytes{std::size_t(1) << 40, 0.08, 0.3};
+
+TEST(GlPatches, EqualTheCpuForEveryEncodingWithAndWithoutAMap) {
+  for (const bool map : {false, true})
+    for (const bool filter : {false, true})
+      for (const Encoding encoding : {Encoding::Snorm8, Encoding::Float16, Encoding::Float32}) {
+        SpreadOptions options = map ? mapped() : SpreadOptions();
+        options.encoding = encoding;
+        shade::PictureOptions picture = small(2);
+        picture.biScale.filter = filter;
+        expectAgreement("patches-" + std::to_string(map) + std::to_string(filter) +
+                            std::to_string(int(encoding)),
+                        ballAndFloor(options), kCamera, picture,
+                        filter && encoding == Encoding::Snorm8 ? kOfBytes : test::Agreement());
+      }
+}
+
+TEST(GlPatches, EqualTheCpuForEveryMacroTransport) {
+  for (const Encoding encoding : {Encoding::Snorm8, Encoding::Float16, Encoding::Float32}) {
+    SpreadOptions options = mapped();
+    options.shadowedBands = 5;
+    options.channels = encoding == Encoding::Float16 ? 1 : 3;
+    options.matrices = encoding;
+    const asset::Asset asset = ballAndFloor(options);
+    for (const MacroTransport macro :
+         {MacroTransport::Off, MacroTransport::Shadowed, MacroTransport::Interreflected}) {
+      shade::PictureOptions picture = small(1);
+      picture.biScale.macro = macro;
+      expectAgreement("macro-" + std::to_string(int(macro)), asset, kCamera, picture);
+    }
+  }
+}
+
+// Seven bands do not fit into what the rasteriser interpolates; matrices of fewer bands, and of
+// more, than the texture has.
+TEST(GlPatches, EqualTheCpuForOtherBandsAndViews) {
+  for (const auto& [bands, views, matrixBands] : {std::tuple{7, 4, 5}, {3, 3, 4}, {4, 1, 0}}) {
+    SpreadOptions options = mapped();
+    options.shadowedBands = matrixBands;
+    options.encoding = Encoding::Float16;
+    expectAgreement("bands-" + std::to_string(bands), ballAndFloor(options, bands, views), kCamera,
+                    small(1));
+  }
+}
+
+TEST(GlPatches, EqualTheCpuWithoutDependenceOnTheView) {
+  for (const int views : {7, 8}) {
+    shade::PictureOptions picture = small(2);
+    picture.biScale.viewDependent = false;
+    expectAgreement("pasted-" + std::to_string(views), ballAndFloor(mapped(), 3, views), kCamera,
+                    picture);
+  }
+}
+
+TEST(GlPatches, EqualTheCpuForAnOrthographicCamera) {
+  scene::Camera camera = shade::test::cameraAt(Vec3(6, 6, 16), Vec3::Zero());  // before all
+  camera.orthographicHalfHeight = 3.0f;
+  expectAgreement("patches-orthographic", ballAndFloor({}, 3, 4), camera, small(2));
+}
+
+TEST(GlPatches, FallIntoBlocksWithoutSeams) {
+  SpreadOptions options;
+  options.shadowedBands = 3;
+  expectAgreement("patches-blocks", ballAndFloor(options, 3, 4), kCamera, small(1), {12'000});
+}
+
+TEST(GlPatches, StandBesideOtherSurfaces) {
+  asset::Asset asset = ballAndFloor(mapped(), 3, 4);
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3(1.6f, 0, 0.5f), 0.4f, 8), {});
+  shade::test::addMirror(asset, shade::test::sphere(Vec3(-1.6f, 0, 0.5f), 0.4f, 24),
+                         Rgb(0.9f, 0.8f, 0.7f));
+  expectAgreement("patches-beside", asset, kCamera, small(2));
+}
+
+TEST(GlPatches, SayWhatIsNotHeld) {
+  const asset::Asset asset = ballAndFloor({}, 2, 1);
+  const light::Environment sky = shade::test::sky();
+  shade::PictureOptions picture = small(1);
+  picture.biScale.macro = MacroTransport::Shadowed;
+  const auto result = render::picture(asset, sky.project(3), sky, kCamera, picture);
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("--transfer shadowed"), std::string::npos);
+}
+
+TEST(Renderer, DrawsFramesAndPicturesOfTheSameAsset) {
+  const asset::Asset asset = ballAndFloor({}, 2, 2);
+  const light::Environment sky = shade::test::sky();
+  const sh::RgbCoefficients light = sky.project(3);
+  Result<Renderer> renderer = Renderer::make(asset, light, sky, small(2));
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto first = renderer->picture(kCamera);
+  ASSERT_TRUE(renderer->drawFrame(shade::test::cameraAt(Vec3(0, 0, 5), Vec3::Zero())));
+  const auto again = renderer->picture(kCamera);
+  ASSERT_TRUE(first && again);
+  for (std::size_t i = 0; i < first->pixels.size(); ++i)
+    ASSERT_TRUE((first->pixels[i] == again->pixels[i]).all()) << i;
+}
+
+/// Runs `body`, which turns input p of four vec4s into output p of four, on every input.
+std::vector<float> onGpu(const std::string& parts, const std::string& body,
+                         const std::vector<float>& inputs) {
+  const std::string source =
+      "layout(local_size_x = 64) in;\n"
+      "layout(std430, binding = 0) readonly buffer In { vec4 inputs[][4]; };\n"
+      "layout(std430, binding = 1) writeonly buffer Out { vec4 outputs[]; };\n"
+      "void main() {\n  uint p = gl_GlobalInvocationID.x;\n"
+      "  if (p >= uint(inputs.length())) return;\n" +
+      body + "}\n";
+  const Program::Stage stage{GL_COMPUTE_SHADER, "table", {parts, source}};
+  const Result<Program> program = Program::make({&stage, 1});
+  if (!program) {
+    ADD_FAILURE() << program.error().message;
+    return {};
+  }
+  const std::size_t count = inputs.size() / 16;
+  std::vector<float> outputs(4 * count);
+  const Buffer in = makeBuffer(inputs), out = makeBuffer(outputs.size() * sizeof(float));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, in.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, out.name());
+  program->use();
+  glDispatchCompute(GLuint(count + 63) / 64, 1, 1);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(out.name(), 0, GLsizeiptr(outputs.size() * sizeof(float)),
+                          outputs.data());
+  EXPECT_TRUE(checkGl("a table"));
+  return outputs;
+}
+
+TEST(ShaderConventions, ViewSquareEqualsTheLibrarys) {
+  const Result<GlContext> context = GlContext::create();
+  ASSERT_TRUE(context) << context.error().message;
+  std::vector<Vec3> directions;
+  std::vector<float> inputs;
+  for (int j = 0; j <= 20; ++j)
+    for (int i = 0; i <= 20; ++i)
+      directions.push_back(math::hemisphereFromSquare(Vec2(i / 20.0f, j / 20.0f)));
+  directions.emplace_back(Vec3(0.8f, 0.6f, -0.1f).normalized());  // below the horizon
+  for (const Vec3& d : directions) {
+    inputs.insert(inputs.end(), {d.x(), d.y(), d.z()});
+    inputs.resize(inputs.size() + 13);
+  }
+  const std::vector<float> squares =
+      onGpu(std::string(shaderSource("view_square.glsl")),
+            "outputs[p] = vec4(squareFromHemisphere(inputs[p][0].xyz), 0.0, 0.0);\n", inputs);
+  ASSERT_EQ(squares.size(), 4 * directions.size());
+  for (std::size_t p = 0; p < directions.size(); ++p) {
+    const Vec2 expected = math::squareFromHemisphere(directions[p]);
+    EXPECT_NEAR(squares[4 * p], expected.x(), 2e-5f) << directions[p].transpose();
+    EXPECT_NEAR(squares[4 * p + 1], expected.y(), 2e-5f) << directions[p].transpose();
+  }
+}
+
+TEST(ShaderConventions, ProbesEqualTheLibrarys) {
+  const Result<GlContext> context = GlContext::create();
+  ASSERT_TRUE(context) << context.error().message;
+  struct Case {
+    Vec2 longer, shorter, positions;
+  };
+  std::vector<Case> cases;
+  std::vector<float> inputs;
+  for (const float length : {0.003f, 0.02f, 0.09f, 0.7f, 5.0f})
+    for (const float ratio : {0.05f, 0.23f, 0.61f, 0.97f, 1.7f})
+      for (const float turn : {0.0f, 0.4f, 1.3f, 2.6f}) {
+        const Vec2 along(std::cos(turn), std::sin(turn));
+        cases.push_back(
+            {length * along, length * ratio * Vec2(-along.y(), along.x()), Vec2(64.0f, 40.0f)});
+      }
+  for (const Case& c : cases) {
+    inputs.insert(inputs.end(), {c.longer.x(), c.longer.y(), c.shorter.x(), c.shorter.y(),
+                                 c.positions.x(), c.positions.y()});
+    inputs.resize(inputs.size() + 10);
+  }
+  const std::vector<float> probes =
+      onGpu(footprintDefines() + std::string(shaderSource("rtt_footprint.glsl")),
+            "Probes found = probesOf(inputs[p][0].xy, inputs[p][0].zw, inputs[p][1].xy);\n"
+            "outputs[p] = vec4(found.level, float(found.count), found.stride);\n",
+            inputs);
+  ASSERT_EQ(probes.size(), 4 * cases.size());
+  for (std::size_t p = 0; p < cases.size(); ++p) {
+    const shade::RttProbes expected =
+        shade::probesOf(cases[p].longer, cases[p].shorter, cases[p].positions);
+    EXPECT_NEAR(probes[4 * p], expected.level, 1e-4f) << p;
+    EXPECT_EQ(int(probes[4 * p + 1]), expected.count) << p;
+    EXPECT_NEAR(probes[4 * p + 2], expected.step.x(), 1e-5f) << p;
+    EXPECT_NEAR(probes[4 * p + 3], expected.step.y(), 1e-5f) << p;
+  }
+}
+
+}  // namespace
+}  // namespace lambent::render

@@ -1,0 +1,25 @@
+// The GL picture against the CPU's, for the tests of render.
+#pragma once
+
+#include <string>
+
+#include "lambent/asset/asset.h"
+#include "lambent/scene/camera.h"
+#include "lambent/shade/picture.h"
+
+namespace lambent::render::test {
+
+/// How far the pictures may be apart, in 1/255 after the tone curve.
+struct Agreement {
+  std::size_t largestBlock = std::size_t(1) << 40;  ///< bytes of storage buffers
+  double mean = 0.05;
+  double interior = 0.05;  ///< the 99th percentile of what lies wholly on surfaces
+};
+
+/// Makes both pictures under test::sky() and expects them to agree, in coverage too, and not to be
+/// black. LAMBENT_TEST_PICTURES=DIR in the environment: where to leave them to look at.
+void expectAgreement(const std::string& name, const asset::Asset& asset,
+                     const scene::Camera& camera, const shade::PictureOptions& options,
+                     const Agreement& agreement = {});
+
+}  // namespace lambent::render::test

@@ -1,0 +1,335 @@
+// Surfaces with meso-structure on the CPU: against transfer in closed form, and by patches that say
+// which of their places, and which of their views, were read.
+
+#include <gtest/gtest.h>
+
+#include "lambent/image/compare.h"
+#include "lambent/math/directions.h"
+#include "lambent/scene/shapes.h"
+#include "lambent/sh/rotation.h"
+#include "lambent/shade/check_bi_scale.h"
+#include "lambent/shade/macro_transport.h"
+#include "lambent/shade/picture.h"
+#include "lambent/shade/shade.h"
+#include "lambent/shade/test_assets.h"
+#include "lambent/shade/test_patches.h"
+
+namespace lambent::shade {
+namespace {
+
+using encode::Encoding;
+using test::addPatched;
+using test::SpreadOptions;
+
+sh::RgbCoefficients uniformLight(int bands) {
+  sh::RgbCoefficients light(bands);
+  for (int c = 0; c < 3; ++c) light.channel(c)[0] = float(std::sqrt(4 * kPi));
+  return light;
+}
+
+sh::RgbCoefficients unevenLight(int bands) {
+  sh::RgbCoefficients light(bands);
+  for (std::size_t i = 0; i < light.values.size(); ++i)
+    light.values[i] = std::sin(1.7f * float(i) + 0.3f) / (1.0f + 0.1f * float(i));
+  return light;
+}
+
+// A flat patch is no patch: B = ρ/π Â_l y(+z), turned back into the world, is the diffuse transfer
+// vector. So neither the tangents nor the place nor the view can matter.
+TEST(BiScale, AFlatPatchIsDiffuseTransfer) {
+  asset::Asset plain;
+  test::addDiffuse(plain, test::sphere(Vec3::Zero(), 1.0f, 10), {});
+  for (const int bands : {2, 5, 6}) {
+    const sh::RgbCoefficients light = unevenLight(bands);
+    const std::vector<Rgb> expected =
+        exitRadiance(plain, 0, sh::withBands(light, std::min(5, bands)));
+    for (const Vec3& tangent : {Vec3(1, 0, 0), Vec3(-0.2f, 0.5f, 0.7f), Vec3(0.3f, -1, 0.1f)}) {
+      asset::Asset patched;
+      SpreadOptions options;
+      options.tangent = tangent;
+      addPatched(patched, test::sphere(Vec3::Zero(), 1.0f, 10),
+                 test::flatRtt(4, 3, 3, 5, Rgb::Constant(0.8f)), options);
+      const std::vector<Rgb> seen = exitRadiance(patched, 0, light, {Vec3(2, 3, 4), {}, {}});
+      ASSERT_EQ(seen.size(), expected.size());
+      for (std::size_t p = 0; p < seen.size(); ++p)
+        EXPECT_LT((seen[p] - expected[p]).abs().maxCoeff(), 2e-5f) << bands << " bands, " << p;
+    }
+  }
+}
+
+TEST(BiScale, APictureOfAFlatPatchIsOneOfDiffuseTransfer) {
+  asset::Asset plain, patched;
+  test::addDiffuse(plain, scene::uvSphere(1.0f, 24, 12), {});
+  SpreadOptions options;
+  options.shadowedBands = 0;
+  options.idMap = test::patchworkMap(64, 32, Vec2(4, 2));
+  addPatched(patched, scene::uvSphere(1.0f, 24, 12), test::flatRtt(8, 8, 4, 5, Rgb::Constant(0.8f)),
+             options);
+  PictureOptions picture48;
+  picture48.width = picture48.height = 48;
+  picture48.samples = 4;
+  const scene::Camera camera = test::cameraAt(Vec3(1, 2, 4), Vec3::Zero());
+  const sh::RgbCoefficients light = unevenLight(5);
+  const auto a = picture(plain, light, {}, camera, picture48);
+  const auto b = picture(patched, light, {}, camera, picture48);
+  ASSERT_TRUE(a && b);
+  // Between vertices the light in their frames is interpolated, and not the radiance.
+  EXPECT_LT(image::compare(*b, *a)->rmse, 2e-3);
+}
+
+/// A floor at the origin (normal +y) whose patch lies along `tangent`.
+asset::Asset floorOf(const meso::RadianceTransferTexture& rtt, SpreadOptions options) {
+  asset::Asset asset;
+  addPatched(asset, test::floor(Vec3::Zero(), 1.0f), rtt, options);
+  return asset;
+}
+
+// Each of the 8×8 views has its own colour; the viewer stands where each looks from, in the frame
+// (tangent, normal × tangent, normal) written out by hand.
+TEST(BiScale, ReadsTheViewThatItIsSeenFrom) {
+  const int views = 8;
+  const auto rtt = test::paintedRtt(
+      1, 1, views, [](int, int, int vx, int vy) { return Rgb(float(vx), float(vy), 1.0f); });
+  SpreadOptions options;
+  options.tangent = Vec3::UnitZ();
+  const asset::Asset asset = floorOf(rtt, options);
+  const Vec3 tangent = Vec3::UnitZ(), bitangent = Vec3::UnitX(), normal = Vec3::UnitY();
+  const sh::RgbCoefficients light = uniformLight(1);
+  const Vec3 at = asset.transfer.meshes[0].positions[0];
+  for (int vy = 0; vy < views; ++vy)
+    for (int vx = 0; vx < views; ++vx) {
+      const Vec3 d = math::hemisphereFromSquare(Vec2((vx + 0.5f) / views, (vy + 0.5f) / views));
+      const Vec3 eye = at + 7.0f * (d.x() * tangent + d.y() * bitangent + d.z() * normal);
+      const Rgb seen = exitRadiance(asset, 0, light, {eye, {}, {}})[0];
+      EXPECT_NEAR(seen[0], float(vx), 1e-3f) << vx << ", " << vy;
+      EXPECT_NEAR(seen[1], float(vy), 1e-3f) << vx << ", " << vy;
+      EXPECT_NEAR(seen[2], 1.0f, 1e-5f);
+      View pasted{eye, {}, {}};
+      pasted.biScale.viewDependent = false;
+      const Rgb centre = exitRadiance(asset, 0, light, pasted)[0];
+      EXPECT_NEAR(centre[0], 3.5f, 1e-4f);
+      EXPECT_NEAR(centre[1], 3.5f, 1e-4f);
+    }
+}
+
+TEST(BiScale, StaysAtTheHorizonBelowIt) {
+  const auto rtt = test::paintedRtt(
+      1, 1, 6, [](int, int, int vx, int vy) { return Rgb(float(vx), float(vy), 1.0f); });
+  const asset::Asset asset = floorOf(rtt, {});
+  const Vec3 at = asset.transfer.meshes[0].positions[0];
+  const auto seenFrom = [&](const Vec3& direction) {
+    return exitRadiance(asset, 0, uniformLight(1), {Vec3(at + direction), {}, {}})[0];
+  };
+  EXPECT_TRUE(seenFrom(Vec3(1, -0.2f, 0.4f)).isApprox(seenFrom(Vec3(1, 0, 0.4f)), 1e-4f));
+}
+
+/// From above, +x to the right and −z upwards, one pixel for each of side×side squares of the
+/// floor.
+scene::Camera fromAbove() {
+  scene::Camera camera;
+  camera.worldFromCamera.block<3, 1>(0, 1) = Vec3(0, 0, -1);
+  camera.worldFromCamera.block<3, 1>(0, 2) = Vec3(0, 1, 0);
+  camera.worldFromCamera.block<3, 1>(0, 3) = Vec3(0, 3, 0);
+  camera.orthographicHalfHeight = 1.0f;
+  return camera;
+}
+
+Result<image::Image> pictureFromAbove(const asset::Asset& asset, int side) {
+  PictureOptions options;
+  options.width = options.height = side;
+  options.samples = 1;
+  options.biScale.filter = false;
+  return picture(asset, uniformLight(1), {}, fromAbove(), options);
+}
+
+meso::RadianceTransferTexture numbered(int width, int height) {
+  return test::paintedRtt(width, height, 1,
+                          [](int x, int y, int, int) { return Rgb(float(x), float(y), 1.0f); });
+}
+
+// Without a map q = tiles (u, −v): row 0 of the patch is the lowest, and comes first above each
+// whole v from below.
+TEST(BiScale, RepeatsThePatchTheRightWayUp) {
+  SpreadOptions options;
+  options.tiles = Vec2(3, 2);
+  options.tangent = Vec3::UnitX();
+  const auto image = pictureFromAbove(floorOf(numbered(4, 6), options), 12);
+  ASSERT_TRUE(image) << image.error().message;
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 12; ++x) {
+      EXPECT_NEAR(image->at(x, y)[0], float(x % 4), 1e-3f) << x << ", " << y;
+      EXPECT_NEAR(image->at(x, y)[1], float((11 - y) % 6), 1e-3f) << x << ", " << y;
+    }
+}
+
+TEST(BiScale, ReadsThePlacesThatTheMapNames) {
+  SpreadOptions options;
+  synthesis::IdMap map;
+  map.width = 4;
+  map.height = 3;
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 4; ++x) {
+      // Position ((3x + 1) mod 5, (2y + x) mod 7), near the end of its cell.
+      map.ids.push_back(std::uint16_t(65536 * ((3 * x + 1) % 5 + 0.97) / 5));
+      map.ids.push_back(std::uint16_t(65536 * ((2 * y + x) % 7 + 0.03) / 7));
+    }
+  options.idMap = map;
+  const auto image = pictureFromAbove(floorOf(numbered(5, 7), options), 12);
+  ASSERT_TRUE(image) << image.error().message;
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 12; ++x) {
+      const int column = x / 3, row = y / 4;
+      EXPECT_NEAR(image->at(x, y)[0], float((3 * column + 1) % 5), 1e-3f) << x << ", " << y;
+      EXPECT_NEAR(image->at(x, y)[1], float((2 * row + column) % 7), 1e-3f) << x << ", " << y;
+    }
+}
+
+TEST(MacroTransport, IsTheStoredMatrices) {
+  for (const Encoding encoding : {Encoding::Float32, Encoding::Float16, Encoding::Snorm8})
+    for (const int channels : {1, 3}) {
+      SpreadOptions options;
+      options.shadowedBands = 4;
+      options.channels = channels;
+      options.matrices = encoding;
+      asset::Asset asset;
+      addPatched(asset, test::sphere(Vec3::Zero(), 1.0f, 6), test::emptyRtt(1, 1, 1, 5), options);
+      const encode::EncodedMesh& mesh = asset.transfer.meshes[0];
+      const sh::RgbCoefficients light = unevenLight(4);
+      const auto off = incidentLight(mesh, light, 5, MacroTransport::Off);
+      const auto shadowed = incidentLight(mesh, light, 5, MacroTransport::Shadowed);
+      const auto best = incidentLight(mesh, light, 5, {});
+      EXPECT_EQ(best, incidentLight(mesh, light, 5, MacroTransport::Interreflected));
+      const float tolerance = encoding == Encoding::Snorm8 ? 0.03f : 2e-3f;
+      ASSERT_EQ(off.size(), mesh.receiverCount() * 3 * 25);
+      for (std::size_t i = 0; i < off.size(); ++i) {
+        ASSERT_NEAR(shadowed[i], 0.75f * off[i], tolerance) << i;
+        if (i % 25 >= 16) {  // four bands of light
+          ASSERT_EQ(off[i], 0.0f);
+        }
+        const float tint = 0.5f + (channels == 3 ? 0.1f * float(i / 25 % 3) : 0.0f);
+        ASSERT_LE(std::abs(best[i]), (tint + 0.1f) * std::abs(off[i]) + tolerance);
+        ASSERT_GE(std::abs(best[i]), tint * std::abs(off[i]) - tolerance);
+      }
+    }
+}
+
+TEST(MacroTransport, OfFewerBandsThanTheTextureIsCutThere) {
+  SpreadOptions options;
+  options.shadowedBands = 2;
+  asset::Asset asset;
+  addPatched(asset, test::sphere(Vec3::Zero(), 1.0f, 4), test::emptyRtt(1, 1, 1, 3), options);
+  const encode::EncodedMesh& mesh = asset.transfer.meshes[0];
+  const auto wide = incidentLight(mesh, unevenLight(5), 3, MacroTransport::Shadowed);
+  const auto off = incidentLight(mesh, unevenLight(5), 3, MacroTransport::Off);
+  const auto narrow = incidentLight(mesh, unevenLight(5), 1, MacroTransport::Shadowed);
+  for (std::size_t v = 0; v < wide.size() / 9; ++v) {
+    for (std::size_t i = 0; i < 9; ++i)
+      ASSERT_NEAR(wide[v * 9 + i], i < 4 ? 0.75f * off[v * 9 + i] : 0.0f, 1e-4f);
+    ASSERT_EQ(narrow[v], wide[v * 9]);
+  }
+}
+
+// What filtering is for: one sample a pixel comes nearer to what many would see, and moves less
+// than the nearest look-up when the picture is shifted by half a pixel.
+TEST(BiScale, FilteringComesNearerToManySamples) {
+  SpreadOptions options;
+  options.tiles = Vec2(24, 24);
+  asset::Asset asset;
+  addPatched(asset, scene::gridPlane(24, 24, 2, 2), test::bumpyRtt(32, 32, 4, 3), options);
+  const scene::Camera camera = test::cameraAt(Vec3(0.7f, 1.5f, 13), Vec3(0, -0.6f, 5));
+  const sh::RgbCoefficients light = test::sky().project(3);
+  const auto rmse = [&](int samples, bool filter, const image::Image* reference) {
+    PictureOptions options64;
+    options64.width = 64;
+    options64.height = 40;
+    options64.samples = samples;
+    options64.biScale.filter = filter;
+    auto image = picture(asset, light, {}, camera, options64);
+    EXPECT_TRUE(image);
+    return std::pair(*image, reference ? image::compare(*image, *reference)->rmse : 0.0);
+  };
+  const image::Image truth = rmse(256, false, nullptr).first;
+  const double nearest = rmse(1, false, &truth).second, filtered = rmse(1, true, &truth).second;
+  EXPECT_LT(filtered, 0.5 * nearest);
+  EXPECT_LT(rmse(4, true, &truth).second, 0.7 * rmse(4, false, &truth).second);
+  const auto mean = [](const image::Image& image) {
+    Rgb sum = Rgb::Zero();
+    for (const Rgb& pixel : image.pixels) sum += pixel;
+    return Rgb(sum / float(image.pixels.size()));
+  };
+  EXPECT_TRUE(mean(rmse(1, true, &truth).first).isApprox(mean(truth), 0.01f));
+}
+
+TEST(BiScale, ASurfaceNearByIsNotFiltered) {
+  SpreadOptions options;
+  options.tiles = Vec2(1, 1);
+  const asset::Asset asset = floorOf(test::bumpyRtt(8, 8, 4, 2), options);
+  PictureOptions picture32;
+  picture32.width = picture32.height = 32;
+  picture32.samples = 1;
+  const auto filtered = picture(asset, unevenLight(2), {}, fromAbove(), picture32);
+  picture32.biScale.filter = false;
+  const auto nearest = picture(asset, unevenLight(2), {}, fromAbove(), picture32);
+  ASSERT_TRUE(filtered && nearest);
+  for (std::size_t i = 0; i < nearest->pixels.size(); ++i)
+    ASSERT_TRUE((filtered->pixels[i] == nearest->pixels[i]).all()) << i;
+}
+
+TEST(CheckBiScale, SaysWhatDoesNotFit) {
+  SpreadOptions options;
+  options.idMap = test::patchworkMap(8, 8, Vec2(1, 1));
+  options.shadowedBands = 2;
+  options.encoding = Encoding::Snorm8;
+  const asset::Asset good = floorOf(test::bumpyRtt(4, 4, 2, 2), options);
+  ASSERT_TRUE(checkBiScale(good, {}));
+  using Change = void (*)(asset::Asset&, encode::EncodedMesh&);
+  const std::pair<const char*, Change> cases[] = {
+      {"texture 3", [](auto&, auto& m) { m.biScale->rtt = 3; }},
+      {"texture -1", [](auto&, auto& m) { m.biScale->rtt = -1; }},
+      {"numbers", [](auto& a, auto&) { a.transfer.rtts[0].values.byte.pop_back(); }},
+      {"scales", [](auto& a, auto&) { a.transfer.rtts[0].values.scales.pop_back(); }},
+      {"views", [](auto& a, auto&) { a.transfer.rtts[0].views = 0; }},
+      {"bands", [](auto& a, auto&) { a.transfer.rtts[0].bands = 11; }},
+      {"measures", [](auto& a, auto&) { a.transfer.rtts[0].size.x() = 0; }},
+      {"3 tangents", [](auto&, auto& m) { m.biScale->tangents.pop_back(); }},
+      {"receiver 1", [](auto&, auto& m) { m.biScale->tangents[1] = m.normals[1]; }},
+      {"receiver 2", [](auto&, auto& m) { m.biScale->tangents[2] *= NAN; }},
+      {"id map", [](auto&, auto& m) { m.biScale->idMap->ids.pop_back(); }},
+      {"repeated",
+       [](auto&, auto& m) {
+         m.biScale->idMap.reset();
+         m.biScale->tiles.y() = 0;
+       }},
+      {"scale", [](auto&, auto& m) { m.biScale->scale = 0; }},
+      {"texture coordinates", [](auto& a, auto&) { a.scene.meshes[0].uvs.clear(); }},
+      {"shadowed macro", [](auto&, auto& m) { m.biScale->shadowed.single.pop_back(); }},
+      {"macro transfer of 0 bands", [](auto&, auto& m) { m.biScale->bands = 0; }},
+      {"channels",
+       [](auto&, auto& m) {
+         m.biScale->interreflected = m.biScale->shadowed;
+         m.biScale->channels = 2;
+       }},
+      {"at every vertex", [](auto&, auto& m) { m.layout = transport::Layout::Texels; }},
+      {"as well",
+       [](auto&, auto& m) { m.vectors = encode::encode(std::vector(4, 1.0f), Encoding::Float32); }},
+  };
+  for (const auto& [words, change] : cases) {
+    asset::Asset bad = good;
+    change(bad, bad.transfer.meshes[0]);
+    const Status status = checkBiScale(bad, {});
+    ASSERT_FALSE(status) << words;
+    EXPECT_EQ(status.error().kind, ErrorKind::BadInput) << words;
+    EXPECT_NE(status.error().message.find(words), std::string::npos) << status.error().message;
+    EXPECT_NE(status.error().message.find("mesh 0 'floor'"), std::string::npos);
+  }
+  BiScaleOptions bounced;
+  bounced.macro = MacroTransport::Interreflected;
+  const Status status = checkBiScale(good, bounced);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::BadUsage);
+  EXPECT_NE(status.error().message.find("it holds: off, shadowed"), std::string::npos);
+  EXPECT_NE(status.error().message.find("--transfer interreflected"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lambent::shade

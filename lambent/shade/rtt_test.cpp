@@ -1,0 +1,215 @@
+// The pyramid over a patch's positions, the reads that a footprint asks for, and the products of
+// bytes.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "lambent/shade/dispatch.h"
+#include "lambent/shade/rtt_footprint.h"
+#include "lambent/shade/rtt_lookup.h"
+#include "lambent/shade/test_patches.h"
+#include "lambent/shade/transfer_matrices.h"
+
+namespace lambent::shade {
+namespace {
+
+double meanOf(const RttLevel& level, std::size_t perPosition, std::size_t number) {
+  double sum = 0;
+  const std::size_t positions = std::size_t(level.width) * level.height;
+  for (std::size_t p = 0; p < positions; ++p) sum += level.values[p * perPosition + number];
+  return sum / double(positions);
+}
+
+TEST(RttPyramid, FirstLevelIsTheTexture) {
+  const meso::RadianceTransferTexture rtt = test::bumpyRtt(5, 3, 3, 3);
+  const RttPyramid pyramid = makePyramid(rtt, 1);
+  ASSERT_EQ(pyramid.levels.size(), 1u);
+  EXPECT_EQ(pyramid.stride(), 28);
+  for (int i = 0; i < 9; ++i)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 5; ++x)
+        for (int v = 0; v < 9; ++v)
+          for (int c = 0; c < 3; ++c)
+            ASSERT_EQ(pyramid.at(0, x, y)[v * 28 + 3 * i + c],
+                      rtt.values[rtt.index(i, x, y, v % 3, v / 3) + std::size_t(c)]);
+}
+
+TEST(RttPyramid, EveryLevelHasTheTexturesMean) {
+  for (const auto& [width, height] : {std::pair{16, 16}, {13, 7}, {1, 9}, {12, 5}}) {
+    const RttPyramid pyramid = makePyramid(test::bumpyRtt(width, height, 2, 2));
+    const std::size_t perPosition = pyramid.viewCount() * pyramid.stride();
+    EXPECT_EQ(pyramid.levels.back().width, 1);
+    EXPECT_EQ(pyramid.levels.back().height, 1);
+    for (const RttLevel& level : pyramid.levels)
+      for (std::size_t n = 0; n < perPosition; ++n)
+        ASSERT_NEAR(meanOf(level, perPosition, n), meanOf(pyramid.levels[0], perPosition, n), 2e-6)
+            << width << "×" << height << " at " << level.width;
+  }
+}
+
+// The patch goes on beyond its border: moved by two positions, the next level moves by one.
+TEST(RttPyramid, IsPeriodic) {
+  const meso::RadianceTransferTexture rtt = test::bumpyRtt(8, 8, 1, 2);
+  meso::RadianceTransferTexture moved = rtt;
+  for (int i = 0; i < 4; ++i)
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x)
+        for (std::size_t c = 0; c < 3; ++c)
+          moved.values[moved.index(i, (x + 6) % 8, (y + 2) % 8, 0, 0) + c] =
+              rtt.values[rtt.index(i, x, y, 0, 0) + c];
+  const RttPyramid a = makePyramid(rtt), b = makePyramid(moved);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x)
+      for (int n = 0; n < a.stride(); ++n)
+        ASSERT_FLOAT_EQ(b.at(1, (x + 3) % 4, (y + 1) % 4)[n], a.at(1, x, y)[n]);
+}
+
+Rgb read(const RttPyramid& pyramid, const Vec2& q, float level) {
+  const std::vector<float> light(std::size_t(pyramid.stride()), 3.5449077f);
+  RttProbes probes;
+  probes.level = level;
+  return respond(pyramid, q, probes, viewsAround(pyramid.views, Vec3::UnitZ()), light.data());
+}
+
+TEST(RttLookup, IsNearestOnTheFirstLevelAndSmoothAcrossTheBorderOnOthers) {
+  const RttPyramid pyramid = makePyramid(test::paintedRtt(
+      8, 4, 1, [](int x, int y, int, int) { return Rgb(float(x * x), float(y), 1.0f); }));
+  EXPECT_NEAR(read(pyramid, Vec2(0.999f, 0.26f), 0.0f)[0], 49.0f, 1e-4f);
+  EXPECT_NEAR(read(pyramid, Vec2(0.999f, 0.26f), 0.0f)[1], 1.0f, 1e-5f);
+  EXPECT_NEAR(read(pyramid, Vec2(0.0f, 0.0f), 0.0f)[0], 0.0f, 1e-5f);
+  // On level 1 the columns are ½, 6½, 20½, 42½ in red; at q = 0 the last and the first meet.
+  EXPECT_NEAR(read(pyramid, Vec2(0.125f, 0.3f), 1.0f)[0], 0.5f, 1e-4f);
+  EXPECT_NEAR(read(pyramid, Vec2(0.0f, 0.3f), 1.0f)[0], 21.5f, 1e-4f);
+  EXPECT_NEAR(read(pyramid, Vec2(0.99999f, 0.3f), 1.0f)[0], 21.5f, 1e-2f);
+  // Between levels their mix; beyond the last the last.
+  EXPECT_NEAR(read(pyramid, Vec2(0.125f, 0.3f), 0.25f)[0], 0.75f * 1.0f + 0.25f * 0.5f, 1e-4f);
+  EXPECT_NEAR(read(pyramid, Vec2(0.1f, 0.3f), 17.0f)[0], 17.5f, 1e-4f);
+}
+
+TEST(RttLookup, MixesTheFourViewsAround) {
+  for (const int views : {1, 2, 7, 8})
+    for (const Vec3& d : {Vec3(0, 0, 1), Vec3(0.3f, -0.4f, 0.5f), Vec3(-1, 0.01f, 0.0f)}) {
+      const RttViews around = viewsAround(views, d.normalized());
+      float sum = 0;
+      for (int v = 0; v < 4; ++v) {
+        EXPECT_GE(around.weight[v], 0.0f);
+        EXPECT_LT(around.index[v], views * views);
+        sum += around.weight[v];
+      }
+      EXPECT_NEAR(sum, 1.0f, 1e-6f);
+    }
+  // Straight above: the middle one of 7×7.
+  const RttViews middle = viewsAround(7, Vec3::UnitZ());
+  for (int v = 0; v < 4; ++v) EXPECT_TRUE(middle.weight[v] < 1e-5f || middle.index[v] == 24) << v;
+}
+
+double varianceOf(const RttProbes& probes, double positions, double width) {
+  double sum = width * width / 12;
+  for (int i = 0; i < probes.count; ++i) {
+    const double at = (i - 0.5 * (probes.count - 1)) * probes.step.norm() * positions;
+    sum += at * at / probes.count;
+  }
+  return sum;
+}
+
+// As wide as the footprint is: N probes of a level's width w spread like a box of length a.
+TEST(RttFootprint, ProbesSpreadAsFarAsTheFootprint) {
+  for (const double a : {1.5, 3.0, 7.9, 20.0})
+    for (const double ratio : {1.0, 0.7, 0.4, 0.26}) {
+      const Vec2 along(0.6f, 0.8f), across(-0.8f, 0.6f);
+      const RttProbes probes =
+          probesOf(along * float(a / 64), across * float(a * ratio / 64), Vec2(64, 64));
+      const double width = std::max(std::max(a * ratio, 1.0), a / kMostProbes);
+      EXPECT_NEAR(probes.level, std::log2(width), 1e-4);
+      const double least = probes.count == 1 ? 0.04 * width * width / 12 : 0.0;
+      EXPECT_NEAR(varianceOf(probes, 64, width), a * a / 12, 1e-4 * a * a + least)
+          << a << ", " << ratio;
+      EXPECT_TRUE(probes.count == 1 || probes.step.normalized().dot(along) > 1.0f - 1e-5f);
+    }
+}
+
+TEST(RttFootprint, NothingIsAveragedBelowOnePosition) {
+  const RttProbes probes = probesOf(Vec2(0.9f / 64, 0), Vec2(0, 0.1f / 64), Vec2(64, 64));
+  EXPECT_EQ(probes.count, 1);
+  EXPECT_EQ(probes.level, 0.0f);
+  EXPECT_EQ(probesOf(Vec2::Zero(), Vec2::Zero(), Vec2(64, 64)).count, 1);
+}
+
+TEST(RttFootprint, AxesLieOnTheSurfaceTowardsTheViewer) {
+  Mat3 frame;
+  frame << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // tangent +y, bitangent +z, normal +x
+  const FootprintAxes axes = footprintAxes(frame, Vec3(0.6f, 0.0f, 0.8f), 0.01f);
+  EXPECT_TRUE(axes.longer.isApprox(Vec3(0, 0.0125f, 0), 1e-5f));
+  EXPECT_TRUE(axes.shorter.isApprox(Vec3(0, 0, 0.01f), 1e-5f));
+}
+
+TEST(RttFootprint, WidthOfASubSample) {
+  scene::Camera camera;
+  camera.verticalFov = 0.8f;
+  const SampleWidth perspective = sampleWidth(camera, 100, 4);
+  EXPECT_NEAR(perspective.at(5.0f), 5.0f * 2.0f * std::tan(0.4f) / 100 / 2, 1e-6f);
+  camera.orthographicHalfHeight = 3.0f;
+  const SampleWidth flat = sampleWidth(camera, 100, 1);
+  EXPECT_NEAR(flat.at(5.0f), 0.06f, 1e-6f);
+  EXPECT_EQ(flat.at(5.0f), flat.at(500.0f));
+}
+
+std::vector<float> numbersLike(std::size_t count) {
+  std::vector<float> numbers(count);
+  for (std::size_t i = 0; i < count; ++i) numbers[i] = std::sin(0.7f * float(i * i % 1009));
+  return numbers;
+}
+
+TEST(ApplyMatrices, BytesWithScalesOfAnyRun) {
+  const int rows = 9, columns = 16, receivers = 5;
+  sh::RgbCoefficients light(4);
+  light.values = numbersLike(48);
+  for (const int channels : {1, 3})
+    for (const int block : {16, 9 * 16, 3 * 9 * 16, 4, 2 * 9 * 16 * 5}) {
+      if (receivers * channels * rows * columns % block != 0) continue;
+      const encode::Numbers matrices =
+          encode::encode(numbersLike(std::size_t(receivers) * channels * rows * columns),
+                         encode::Encoding::Snorm8, std::size_t(block));
+      const std::vector<float> m = encode::decode(matrices);
+      const std::vector<float> out =
+          applyMatrices(matrices, {receivers, channels, rows, columns}, light);
+      for (int p = 0; p < receivers; ++p)
+        for (int c = 0; c < 3; ++c)
+          for (int i = 0; i < rows; ++i) {
+            double expected = 0;
+            for (int j = 0; j < columns; ++j)
+              expected +=
+                  double(m[std::size_t(((p * channels + c % channels) * rows + i) * columns + j)]) *
+                  light.channel(c)[std::size_t(j)];
+            ASSERT_NEAR(out[std::size_t((p * 3 + c) * rows + i)], expected, 2e-5)
+                << channels << " channels, runs of " << block;
+          }
+    }
+}
+
+TEST(Kernels, EveryInstructionSetMultipliesBytes) {
+  const int rows = 25, columns = 25, receivers = 3;
+  std::vector<std::int8_t> bytes(std::size_t(receivers) * 3 * rows * columns);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = std::int8_t(int(i * 37 % 255) - 127);
+  std::vector<float> light(std::size_t(3 * paddedColumns(columns)));
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < columns; ++j)
+      light[std::size_t(c * paddedColumns(columns) + j)] = float(j - 3 * c);
+  std::vector<float> scratch(std::size_t(3 * rows * columns + kBlock));
+  for (const math::Isa isa : {math::Isa::Baseline, math::Isa::Avx2, math::Isa::Avx512}) {
+    if (isa > math::bestIsa()) continue;
+    std::vector<float> out(std::size_t(receivers) * 3 * rows);
+    kernelsFor(isa).matrixByte(bytes.data(), receivers, 3, rows, columns, light.data(),
+                               scratch.data(), out.data());
+    for (std::size_t row = 0; row < out.size(); ++row) {
+      float expected = 0;
+      for (std::size_t j = 0; j < std::size_t(columns); ++j)
+        expected += float(bytes[row * columns + j]) * (float(j) - 3.0f * float(row / rows % 3));
+      ASSERT_EQ(out[row], expected) << "isa " << int(isa);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lambent::shade
