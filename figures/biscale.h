@@ -7,6 +7,7 @@
 namespace lambent::figures {
 
 void biscaleTruth(const Studio& studio);
+void biscaleResolution(const Studio& studio);
 void biscaleFigure1(const Studio& studio);
 void biscaleFigure3(const Studio& studio);
 void biscaleFigure4(const Studio& studio);

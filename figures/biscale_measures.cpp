@@ -55,18 +55,17 @@ image::Comparison compared(const image::Image& test, const image::Image& referen
 
 void biscaleFilter(const Studio& studio) {
   const int side = studio.pixels(256), many = studio.quick ? 64 : 256;
-  const BuiltRtt built = build(meso::weave({}), rttOptions(studio));
+  const meso::RadianceTransferTexture rtt = rttNamed(studio, "weave");
   bi_scale::SpreadOptions wear;
   wear.placement = Placement::OwnUvs, wear.tiles = Vec2(160, 160);
   wear.transfer.directions = 1024, wear.transfer.bounces = 0;
   const asset::Asset plane =
-      spread(scene::sceneOf(scene::gridPlane(16, 16, 32, 32), diffuseMaterial(Rgb::Ones())),
-             built.rtt, wear)
+      spread(scene::sceneOf(scene::gridPlane(16, 16, 32, 32), diffuseMaterial(Rgb::Ones())), rtt,
+             wear)
           .asset;
   wear.tiles = Vec2(24, 12);
   const asset::Asset ball =
-      spread(scene::sceneOf(scene::uvSphere(0.4f, 96, 48), diffuseMaterial(Rgb::Ones())), built.rtt,
-             wear)
+      spread(scene::sceneOf(scene::uvSphere(0.4f, 96, 48), diffuseMaterial(Rgb::Ones())), rtt, wear)
           .asset;
   const sh::RgbCoefficients light =
       discLight(towards(200, 40), 60, Rgb(2.6f, 2.5f, 2.3f)).project(5);
@@ -121,13 +120,14 @@ void biscaleFilter(const Studio& studio) {
 void biscaleEncodings(const Studio& studio) {
   using encode::Encoding;
   const int side = studio.pixels(400);
-  const BuiltRtt built = build(meso::weave({}), rttOptions(studio));
+  const meso::RadianceTransferTexture rtt = rttNamed(studio, "weave");
   bi_scale::SpreadOptions wear;
   wear.matrixEncoding = Encoding::Float32;
   wear.transfer.directions = studio.directions(), wear.transfer.bounces = 2;
-  if (studio.quick) wear.atlas.size = 1024, wear.mesoVertices = 100000;
+  wear.mesoVertices = studio.quick ? 100000 : 300000;
+  if (studio.quick) wear.atlas.size = 1024;
   const scene::Scene scene = dentedBall();
-  const bi_scale::Spread exact = spread(scene, built.rtt, wear);
+  const bi_scale::Spread exact = spread(scene, rtt, wear);
   const encode::EncodedMesh& mesh = exact.asset.transfer.meshes[0];
   const std::vector<float> matrices = encode::decode(mesh.biScale->interreflected);
   const sh::RgbCoefficients light = studio.hdri("workshop").project(5);
@@ -143,8 +143,8 @@ void biscaleEncodings(const Studio& studio) {
       "| "
       "FLIP | RTT MiB | matrices MiB | id map MiB | file MiB "
       "|\n|---|---|---|---|---|---|---|---|---|---|\n",
-      mesh.receiverCount(), scene.meshes[0].positions.size(), built.rtt.width, built.rtt.height,
-      built.rtt.views, built.rtt.views, mesh.biScale->idMap->width, mesh.biScale->idMap->height);
+      mesh.receiverCount(), scene.meshes[0].positions.size(), rtt.width, rtt.height, rtt.views,
+      rtt.views, mesh.biScale->idMap->width, mesh.biScale->idMap->height);
   const auto name = [](Encoding encoding) {
     return encoding == Encoding::Float32   ? "32 bits"
            : encoding == Encoding::Float16 ? "16 bits"
@@ -157,7 +157,7 @@ void biscaleEncodings(const Studio& studio) {
                                           {Encoding::Snorm8, Encoding::Float16},
                                           {Encoding::Snorm8, Encoding::Snorm8}}) {
     const asset::Asset asset = withEncodings(exact.asset, ofRtt, ofMatrices);
-    const encode::Numbers& rtt = asset.transfer.rtts[0].values;
+    const encode::Numbers& numbers = asset.transfer.rtts[0].values;
     const encode::Numbers& matrix = asset.transfer.meshes[0].biScale->interreflected;
     const image::Comparison error = compared(photograph(asset, light, {}, shot), truth);
     if (const Status saved = asset::write(asset, file); !saved) die(saved.error().message);
@@ -165,9 +165,9 @@ void biscaleEncodings(const Studio& studio) {
     std::filesystem::remove(file);
     fmt::print(
         "| {} | {} | {:.4f}% | {:.4f}% | {:.4f}% | {:.4f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n",
-        name(ofRtt), name(ofMatrices), 100 * encode::encodingError(built.rtt.values, rtt),
+        name(ofRtt), name(ofMatrices), 100 * encode::encodingError(rtt.values, numbers),
         100 * encode::encodingError(matrices, matrix), 100 * error.relativeRmse, error.flip,
-        mebibytes(rtt), mebibytes(matrix), idMap, bytes);
+        mebibytes(numbers), mebibytes(matrix), idMap, bytes);
     std::fflush(stdout);
   }
   fmt::print("\nGeometry, normals, UVs, tangents and indices: {:.1f} MiB of it.\n\n", geometry);

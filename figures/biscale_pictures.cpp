@@ -7,7 +7,6 @@
 #include "figures/relief.h"
 #include "figures/scenes.h"
 #include "figures/sheet.h"
-#include "lambent/meso/generators.h"
 #include "lambent/scene/shapes.h"
 
 namespace lambent::figures {
@@ -33,27 +32,6 @@ Mat3 turnedY(float degrees) {
   return turn;
 }
 
-/// The seed's tables: views for weave, holes and bin at 64×64; none for the flatter patches, at
-/// 128×128.
-meso::RttOptions rttOptionsFor(const Studio& studio, const std::string& patch) {
-  meso::RttOptions options = rttOptions(studio);
-  if (patch == "plaster" || patch == "stucco" || patch == "flower") {
-    options.views = 1;
-    if (!studio.quick) options.width = options.height = 128;
-  }
-  return options;
-}
-
-meso::RadianceTransferTexture rttNamed(const Studio& studio, const std::string& name) {
-  const BuiltRtt built =
-      build(*meso::generate(name, Vec2(0.1f, 0.1f)), rttOptionsFor(studio, name));
-  fmt::print("{}: {}x{}, {}x{} views, {:.1f} million rays, {:.1f} s\n", name, built.rtt.width,
-             built.rtt.height, built.rtt.views, built.rtt.views,
-             double(built.cost.viewRays + built.cost.lightRays) * 1e-6, built.seconds);
-  std::fflush(stdout);
-  return built.rtt;
-}
-
 /// A square of 1 m that wears `tiles` periods of the patch each way.
 asset::Asset square(const meso::RadianceTransferTexture& rtt, float tiles) {
   bi_scale::SpreadOptions options;
@@ -61,6 +39,26 @@ asset::Asset square(const meso::RadianceTransferTexture& rtt, float tiles) {
   options.tiles = Vec2(tiles, tiles);
   options.transfer.directions = 1024, options.transfer.bounces = 0;
   return spread(scene::sceneOf(scene::gridPlane(1, 1, 8, 8), kAny), rtt, options).asset;
+}
+
+/// Head-on and oblique views of the square, which fills them.
+struct SquareView {
+  scene::Camera camera;
+  int height;
+};
+std::vector<SquareView> squareViews(int width) {
+  return {{lookAt(Vec3(0, 2.4f, 0.01f), Vec3::Zero(), 24), width},
+          {lookAt(Vec3(0, 1.05f, 2.4f), Vec3(0, 0, 0.02f), 16.5f), width * 55 / 100}};
+}
+
+/// An environment whose radiance, in the mean over the sphere, is as bright as `mean`.
+sh::RgbCoefficients asBright(const light::Environment& environment, float mean) {
+  sh::RgbCoefficients light = environment.project(5);
+  double sum = 0.0;
+  for (int c = 0; c < 3; ++c) sum += light.channel(c)[0] / (3 * std::sqrt(4 * kPi));
+  for (int c = 0; c < 3; ++c)
+    for (float& value : light.channel(c)) value *= float(mean / sum);
+  return light;
 }
 
 /// A surface that wears the patch by synthesis, with both kinds of matrices.
@@ -71,7 +69,8 @@ asset::Asset dressed(const Studio& studio, const scene::Scene& scene,
   options.transfer.directions = studio.quick ? 1024 : 4096;
   options.transfer.bounces = 3;
   options.transfer.keepShadowed = true;
-  if (studio.quick) options.atlas.size = 1024, options.mesoVertices = 100000;
+  options.mesoVertices = studio.quick ? 100000 : 300000;
+  if (studio.quick) options.atlas.size = 1024;
   const bi_scale::Spread out = spread(scene, rtt, options);
   const bi_scale::SpreadReport& report = out.reports.front();
   fmt::print("{}: {} vertices, {:.0f} patches, {} meso-vertices, {} charts\n", rtt.name,
@@ -88,7 +87,7 @@ scene::Scene rock() {
     float depth, width;
   };
   const std::vector<Dent> dents = {
-      {towards(70, 25), 0.42f, 0.34f},   {towards(130, 50), 0.30f, 0.40f},
+      {towards(70, 25), 0.62f, 0.36f},   {towards(130, 50), 0.30f, 0.40f},
       {towards(20, -10), 0.34f, 0.36f},  {towards(95, -30), 0.30f, 0.30f},
       {towards(200, 20), 0.36f, 0.45f},  {towards(280, 35), 0.38f, 0.40f},
       {towards(320, -20), 0.34f, 0.42f}, {towards(0, 80), 0.25f, 0.40f},
@@ -182,18 +181,17 @@ void biscaleFigure4(const Studio& studio) {
   const Vec3 a = towards(215, 40), c = towards(20, 30);
   const std::vector<sh::RgbCoefficients> lights = {
       smallestLight(a, power), discLight(a, 110, power).project(5), smallestLight(c, power),
-      discLight(c, 110, power).project(5), studio.hdri("forest").project(5)};
+      discLight(c, 110, power).project(5), asBright(studio.hdri("forest"), 0.6f)};
   Sheet sheet;
   sheet.columnLabels = {"(a) smallest", "(b) 110 deg", "(c) smallest", "(d) 110 deg",
                         "(e) environment"};
   sheet.rowLabels = {"head-on", "oblique"};
-  for (const scene::Camera& camera : {lookAt(Vec3(0, 2.2f, 0.01f), Vec3::Zero(), 27),
-                                      lookAt(Vec3(0, 0.75f, 1.9f), Vec3::Zero(), 27)}) {
+  for (const SquareView& view : squareViews(side)) {
     std::vector<image::Image> row;
-    for (std::size_t l = 0; l < lights.size(); ++l)
-      row.push_back(develop(
-          photograph(asset, lights[l], macro(MacroTransport::Off), {camera, side, side, 16}),
-          l == 4 ? 0.5f : 0.6f));
+    for (const sh::RgbCoefficients& light : lights)
+      row.push_back(develop(photograph(asset, light, macro(MacroTransport::Off),
+                                       {view.camera, side, view.height, 16}),
+                            0.6f));
     sheet.rows.push_back(std::move(row));
   }
   studio.save(compose(sheet), "biscale-figure4");
@@ -209,11 +207,12 @@ void biscaleFigure5(const Studio& studio) {
   for (const std::string name : {"weave", "holes", "bin", "plaster", "stucco", "flower"}) {
     const asset::Asset asset = square(rttNamed(studio, name), 2);
     sheet.columnLabels.push_back(name);
-    const scene::Camera views[] = {lookAt(Vec3(0, 2.2f, 0.01f), Vec3::Zero(), 27),
-                                   lookAt(Vec3(0, 0.9f, 1.8f), Vec3::Zero(), 27)};
-    for (int v = 0; v < 2; ++v)
-      sheet.rows[v].push_back(develop(
-          photograph(asset, light, macro(MacroTransport::Off), {views[v], side, side, 16}), 0.5f));
+    for (std::size_t v = 0; v < 2; ++v) {
+      const SquareView view = squareViews(side)[v];
+      sheet.rows[v].push_back(develop(photograph(asset, light, macro(MacroTransport::Off),
+                                                 {view.camera, side, view.height, 16}),
+                                      0.5f));
+    }
   }
   studio.save(compose(sheet), "biscale-figure5");
 }
@@ -223,7 +222,7 @@ void biscaleFigure1(const Studio& studio) {
   const scene::Scene bunny = studio.load("bunny.obj");
   const float size = scene::bounds(bunny).diagonal();
   const asset::Asset asset = dressed(studio, bunny, rttNamed(studio, "weave"), 0.055f * size);
-  const sh::RgbCoefficients light = studio.hdri("workshop").rotated(turnedY(270)).project(5);
+  const sh::RgbCoefficients light = asBright(studio.hdri("esplanade"), 0.45f);
   const scene::Camera camera = scene::frameAutomatically(bunny, 1.0f);
   Sheet sheet;
   sheet.columnLabels = {"(a) no macro-scale transport", "(b) shadowed", "(c) interreflected"};
@@ -240,9 +239,9 @@ void biscaleFigure3(const Studio& studio) {
   const scene::Scene boulder = rock();
   const asset::Asset asset = dressed(studio, boulder, rttNamed(studio, "stucco"), 0.4f);
   const light::Environment world =
-      light::Environment::clampedCosine(Vec3(0, 1, 0), Rgb(0.35f, 0.45f, 0.6f)) +
-      discLight(towards(20, 45), 40, Rgb(2.4f, 2.2f, 1.9f));
-  const scene::Camera camera = lookAt(Vec3(0.9f, 1.4f, 3.6f), Vec3(0, -0.05f, 0), 36);
+      light::Environment::clampedCosine(Vec3(0, 1, 0), Rgb(0.2f, 0.26f, 0.35f)) +
+      discLight(towards(-25, 55), 40, Rgb(2.8f, 2.6f, 2.2f));
+  const scene::Camera camera = lookAt(Vec3(0.9f, 1.4f, 3.9f), Vec3(-0.15f, -0.1f, 0), 40);
   Sheet sheet;
   sheet.columnLabels = {"(a) none", "(b) shadows", "(c) and interreflection"};
   sheet.rows.resize(1);
@@ -261,9 +260,8 @@ void biscaleFigure6(const Studio& studio) {
     Vec3 zoomAt;  ///< of the bounding box, −½ … ½
   };
   const Row rows[] = {
-      {"dragon", "dragon/dragon_vrip_res3.ply", "weave", "workshop", 0.05f, 270,
-       Vec3(-0.1f, 0.02f, 0.2f)},
-      {"bunny", "bunny.obj", "bin", "venice", 0.06f, 0, Vec3(-0.05f, -0.05f, 0.2f)}};
+      {"dragon", "dragon/dragon_vrip_res3.ply", "weave", "sky", 0.05f, 0, Vec3(-0.1f, 0.02f, 0.2f)},
+      {"bunny", "bunny.obj", "bin", "lab", 0.06f, 0, Vec3(-0.05f, -0.05f, 0.2f)}};
   Sheet sheet;
   sheet.columnLabels = {"(a) no macro", "(b) macro", "(c) pasted on", "(d) by view"};
   for (const Row& row : rows) {
@@ -271,7 +269,8 @@ void biscaleFigure6(const Studio& studio) {
     const scene::Box box = scene::bounds(mesh);
     const asset::Asset asset =
         dressed(studio, mesh, rttNamed(studio, row.patch), row.patches * box.diagonal());
-    const sh::RgbCoefficients light = studio.hdri(row.light).rotated(turnedY(row.turn)).project(5);
+    const sh::RgbCoefficients light =
+        asBright(studio.hdri(row.light).rotated(turnedY(row.turn)), 0.5f);
     const scene::Camera whole = scene::frameAutomatically(mesh, 1.0f);
     const Vec3 target = box.center() + row.zoomAt.cwiseProduct(box.upper - box.lower);
     const scene::Camera near = zoomed(whole, target, 3.6f);
@@ -298,7 +297,7 @@ void biscaleVase(const Studio& studio) {
   options.transfer.bounces = 3;
   const bi_scale::Spread worn = spread(stage, rttNamed(studio, "flower"), options);
   fmt::print("vase: {} vertices with matrices\n", worn.asset.transfer.meshes[0].receiverCount());
-  const sh::RgbCoefficients light = studio.hdri("venice").rotated(turnedY(200)).project(5);
+  const sh::RgbCoefficients light = asBright(studio.hdri("workshop").rotated(turnedY(200)), 0.6f);
   Sheet sheet;
   sheet.columnLabels = {"without macro", "with", "from above"};
   const scene::Camera front = lookAt(Vec3(0, 1.5f, 3.4f), Vec3(0, 0.58f, 0), 27),

@@ -20,7 +20,7 @@ namespace lambent::figures {
 
 namespace {
 
-constexpr int kSide = 200;   ///< pixels
+constexpr int kSide = 160;   ///< pixels
 constexpr int kBounces = 4;  ///< of the path tracer, the RTT and the macro scale alike
 
 /// A scene twice: with the patch as triangles, and with a smooth mesh 0 whose UVs repeat it.
@@ -250,7 +250,7 @@ void compareStage(const Studio& studio, const Stage& stage, const BuiltRtt& buil
       if (pairs == Pairs::Diagonal && v != l) continue;
       const Stage::View& view = stage.views[v];
       const Truth truth = truthOf(stage, rays, view.camera, lights[l].coefficients, side,
-                                  studio.paths(v == l ? 128 : 64));
+                                  studio.paths(v == l ? 64 : 32));
       shade::BiScaleOptions on, off;
       off.macro = shade::MacroTransport::Off;
       const Shot shot{view.camera, side, side, 64};
@@ -287,7 +287,7 @@ void whatItIsMadeOf(const Studio& studio, const meso::Patch& patch, const std::s
   std::vector<Truth> truths;
   std::string head = "| positions | views |", rule = "|---|---|", noise = "| noise | |";
   for (const Stage::View& view : stage.views) {
-    truths.push_back(truthOf(stage, rays, view.camera, light, side, studio.paths(128)));
+    truths.push_back(truthOf(stage, rays, view.camera, light, side, studio.paths(64)));
     head += " " + view.name + " |", rule += "---|";
     noise += fmt::format(" {:.1f}% |", 100 * truths.back().noise);
   }
@@ -303,7 +303,7 @@ void whatItIsMadeOf(const Studio& studio, const meso::Patch& patch, const std::s
     options.width = options.height = studio.quick ? r.positions / 2 : r.positions;
     options.views = r.views, options.supersample = r.supersample;
     options.bounces = kBounces;
-    options.directions = studio.quick ? 64 : 128;
+    options.directions = 64;
     const BuiltRtt built = build(patch, options);
     bi_scale::SpreadOptions wear;
     wear.placement = bi_scale::Placement::OwnUvs, wear.tiles = stage.tiles;
@@ -324,14 +324,19 @@ void whatItIsMadeOf(const Studio& studio, const meso::Patch& patch, const std::s
   fmt::print("{}\n\n", noise);
 }
 
+/// Of few enough facets that hundreds of periods fit into a path tracer.
+meso::Patch coarseWeave() {
+  meso::WeaveOptions options;
+  options.around = 16, options.along = 24;
+  return meso::weave(options);
+}
+
 }  // namespace
 
 void biscaleTruth(const Studio& studio) {
-  meso::WeaveOptions weave;
-  weave.around = 16, weave.along = 24;
   meso::StuccoOptions stucco;
   stucco.resolution = 64;
-  const meso::Patch cloth = meso::weave(weave), wall = meso::stucco(stucco);
+  const meso::Patch cloth = coarseWeave(), wall = meso::stucco(stucco);
   meso::RttOptions options = rttOptions(studio);
   options.bounces = kBounces;
   const BuiltRtt clothRtt = build(cloth, options), wallRtt = build(wall, options);
@@ -343,7 +348,10 @@ void biscaleTruth(const Studio& studio) {
   compareStage(studio, sphereStage(cloth), clothRtt, "weave", "biscale-truth-ball", Pairs::All);
   compareStage(studio, planeStage(wall, true), wallRtt, "stucco", "biscale-truth-stucco",
                Pairs::Diagonal);
-  whatItIsMadeOf(studio, cloth, "weave");
+}
+
+void biscaleResolution(const Studio& studio) {
+  whatItIsMadeOf(studio, coarseWeave(), "weave");
 }
 
 }  // namespace lambent::figures

@@ -2,8 +2,9 @@
 //
 // usage: lambent_figures INPUTS OUTPUT [--quick] [NAME …]
 //   NAME: figure3 figure9 figure10 figure11 figure12 table1 diffuse-accuracy glossy-accuracy
-//         biscale-truth biscale-figure1 biscale-figure3 biscale-figure4 biscale-figure5
-//         biscale-figure6 biscale-vase biscale-filter biscale-encodings biscale-rtt-methods
+//         biscale-truth biscale-resolution biscale-figure1 biscale-figure3 biscale-figure4
+//         biscale-figure5 biscale-figure6 biscale-vase biscale-filter biscale-encodings
+//         biscale-rtt-methods
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
       {"diffuse-accuracy", diffuseAccuracy},
       {"glossy-accuracy", glossyAccuracy},
       {"biscale-truth", biscaleTruth},
+      {"biscale-resolution", biscaleResolution},
       {"biscale-figure1", biscaleFigure1},
       {"biscale-figure3", biscaleFigure3},
       {"biscale-figure4", biscaleFigure4},

@@ -1,9 +1,12 @@
 #include "figures/relief.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 
 #include "lambent/meso/effective_albedo.h"
+#include "lambent/meso/generators.h"
 #include "lambent/render/gl_picture.h"
 #include "lambent/sh/window.h"
 
@@ -20,8 +23,25 @@ BuiltRtt build(const meso::Patch& patch, const meso::RttOptions& options) {
 
 meso::RttOptions rttOptions(const Studio& studio) {
   meso::RttOptions options;
-  if (studio.quick) options.width = options.height = 32, options.directions = 128;
+  options.directions = 128;  // of each of 2x2 sub-samples
+  if (studio.quick) options.width = options.height = 32, options.directions = 32;
   return options;
+}
+
+meso::RadianceTransferTexture rttNamed(const Studio& studio, const std::string& name) {
+  const auto kept = studio.rtts->find(name);
+  if (kept != studio.rtts->end()) return kept->second;
+  meso::RttOptions options = rttOptions(studio);
+  if (name == "plaster" || name == "stucco" || name == "flower") {
+    options.views = 1;
+    if (!studio.quick) options.width = options.height = 128, options.directions = 512;
+  }
+  const BuiltRtt built = build(*meso::generate(name, Vec2(0.1f, 0.1f)), options);
+  fmt::print("{}: {}x{}, {}x{} views, {:.1f} million rays, {:.1f} s\n", name, built.rtt.width,
+             built.rtt.height, built.rtt.views, built.rtt.views,
+             double(built.cost.viewRays + built.cost.lightRays) * 1e-6, built.seconds);
+  std::fflush(stdout);
+  return studio.rtts->emplace(name, built.rtt).first->second;
 }
 
 bi_scale::Spread spread(const scene::Scene& scene, const meso::RadianceTransferTexture& rtt,

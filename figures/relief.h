@@ -18,7 +18,11 @@ struct BuiltRtt {
   double seconds = 0.0;
 };
 BuiltRtt build(const meso::Patch& patch, const meso::RttOptions& options);
+/// 64×64 positions, 8×8 views.
 meso::RttOptions rttOptions(const Studio& studio);
+/// That of a generator with its defaults, built once. As in the paper: plaster, stucco and flower
+/// have 128×128 positions and no dependence on the view.
+meso::RadianceTransferTexture rttNamed(const Studio& studio, const std::string& name);
 
 /// The surface wears the patch, whose numbers are kept in 32 bits; those of matrices as the options
 /// say. What others see of it is the RTT's own effective albedo.

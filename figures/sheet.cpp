@@ -38,21 +38,22 @@ void drawText(image::Image& image, int x, int y, const std::string& text, int sc
 }
 
 image::Image compose(const Sheet& sheet) {
-  int width = 1, height = 1;
+  int width = 1;
   std::size_t columns = sheet.columnLabels.size();
+  std::vector<int> tops = {sheet.columnLabels.empty() ? 0 : 10 * kLetter + kGap};  // of rows
   for (const auto& row : sheet.rows) {
     columns = std::max(columns, row.size());
+    int height = 1;
     for (const image::Image& cell : row)
       width = std::max(width, cell.width), height = std::max(height, cell.height);
+    tops.push_back(tops.back() + height + kGap);
   }
   for (const std::string& label : sheet.columnLabels)
     width = std::max(width, textWidth(label, kLetter) + kGap);
   int left = 0;
   for (const std::string& label : sheet.rowLabels)
     left = std::max(left, textWidth(label, kLetter) + 2 * kGap);
-  const int top = sheet.columnLabels.empty() ? 0 : 10 * kLetter + kGap;
-  image::Image out(left + static_cast<int>(columns) * (width + kGap) + kGap,
-                   top + static_cast<int>(sheet.rows.size()) * (height + kGap) + kGap);
+  image::Image out(left + static_cast<int>(columns) * (width + kGap) + kGap, tops.back() + kGap);
   std::fill(out.pixels.begin(), out.pixels.end(), kPaper);
   for (std::size_t c = 0; c < sheet.columnLabels.size(); ++c) {
     const int centre = left + kGap + static_cast<int>(c) * (width + kGap) + width / 2;
@@ -60,9 +61,10 @@ image::Image compose(const Sheet& sheet) {
              sheet.columnLabels[c], kLetter);
   }
   for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
-    const int y = top + kGap + static_cast<int>(r) * (height + kGap);
+    const int y = tops[r] + kGap;
     if (r < sheet.rowLabels.size())
-      drawText(out, kGap, y + height / 2 - 4 * kLetter, sheet.rowLabels[r], kLetter);
+      drawText(out, kGap, (tops[r] + tops[r + 1] + kGap) / 2 - 4 * kLetter, sheet.rowLabels[r],
+               kLetter);
     for (std::size_t c = 0; c < sheet.rows[r].size(); ++c) {
       const image::Image& cell = sheet.rows[r][c];
       const int x = left + kGap + static_cast<int>(c) * (width + kGap) + (width - cell.width) / 2;

@@ -12,7 +12,8 @@ namespace lambent::figures {
 void drawText(image::Image& image, int x, int y, const std::string& text, int scale = 2);
 int textWidth(const std::string& text, int scale = 2);
 
-/// Cells of one size (display-referred, linear in [0, 1]); empty cells stay blank.
+/// Cells (display-referred, linear in [0, 1]), all columns as wide as the widest, each row as high
+/// as its highest.
 struct Sheet {
   std::vector<std::string> columnLabels, rowLabels;
   std::vector<std::vector<image::Image>> rows;

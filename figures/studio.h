@@ -1,11 +1,15 @@
 // What every figure does: bake, light, take a picture.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 
 #include "lambent/asset/asset.h"
 #include "lambent/light/environment.h"
+#include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/reference/path_tracer.h"
 #include "lambent/scene/camera.h"
 #include "lambent/transport/bake.h"
@@ -26,9 +30,13 @@ struct Studio {
   std::filesystem::path output;  ///< where pictures go
   bool quick = false;            ///< fewer directions, paths and pixels, to try a figure out
 
+  /// RTTs that one figure built and another may want, by the patch's name.
+  std::shared_ptr<std::map<std::string, meso::RadianceTransferTexture>> rtts =
+      std::make_shared<std::map<std::string, meso::RadianceTransferTexture>>();
+
   int directions() const { return quick ? 1024 : 8192; }
   int pixels(int full) const { return quick ? full / 2 : full; }
-  int paths(int full) const { return quick ? full / 16 : full; }
+  int paths(int full) const { return quick ? std::max(8, full / 16) : full; }
 
   scene::Scene load(const std::string& file) const;  ///< exits with the reader's message
   light::Environment hdri(const std::string& name) const;
