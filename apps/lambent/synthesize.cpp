@@ -75,8 +75,9 @@ std::string reportText(const bi_scale::SpreadReport& r) {
                                  r.name.empty() ? "mesh " + std::to_string(r.mesh) : r.name,
                                  r.patches, double(r.patchWidth), formatCount(r.vertices));
   if (r.mesoVertices > 0) {
-    text += fmt::format("    {} meso-vertices, {} singularities of the tangent field\n",
-                        formatCount(r.mesoVertices), r.singularities);
+    text += fmt::format(
+        "    {} meso-vertices, {} singularities of the tangent field, randomness {:.2f}\n",
+        formatCount(r.mesoVertices), r.singularities, r.randomness);
     text += fmt::format(
         "    atlas: {} charts{}, stretch {:.3f} (worst chart {:.3f}), {:.0f}% of "
         "the map in use\n",
@@ -98,6 +99,7 @@ Json asJson(const bi_scale::SpreadReport& r) {
           {"vertices", r.vertices},
           {"meso_vertices", r.mesoVertices},
           {"singularities", r.singularities},
+          {"randomness", r.randomness},
           {"charts", r.charts},
           {"stretch", r.stretch},
           {"worst_stretch", r.worstStretch},
@@ -228,10 +230,10 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("X,Y,Z")
       ->group("Placement");
   app->add_option("--randomness", options.randomness,
-                  "0: repeat the patch wherever the surface lets it; 1: scatter it about")
+                  "0: repeat the patch wherever the surface lets it, right for a weave; 1: scatter "
+                  "it about. Without it: what the patch bears")
       ->check(CLI::Range(0.0, 1.0))
       ->option_text("0..1")
-      ->capture_default_str()
       ->group("Placement");
   app->add_option("--mesh", arguments->meshes,
                   "Name or number of a mesh that gets the patch; may be given several times. "

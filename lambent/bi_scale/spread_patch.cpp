@@ -26,6 +26,18 @@ namespace {
 constexpr std::uint32_t kMostMesoVertices = 960000;
 constexpr double kAutomaticPositions = 819200.0;
 
+/// Names a stage that does not say how far it is, when it begins and when it ends.
+template <class Work>
+auto staged(const Progress& progress, std::string_view stage, Work&& work) {
+  const auto tell = [&] {
+    if (progress) (void)progress({stage, 0, 0, ""});
+  };
+  tell();
+  auto result = work();
+  tell();
+  return result;
+}
+
 /// Where a mesh carries the patch.
 struct Placed {
   std::uint32_t mesh = 0;
@@ -105,6 +117,19 @@ void dropUnused(scene::Scene& scene) {
   scene.textures = std::move(textures);
 }
 
+encode::EncodedBiScale encodeLocal(const transport::LocalTransfer& local, Placed& placed,
+                                   encode::Encoding encoding, SpreadReport& report) {
+  encode::EncodedBiScale biScale = encode::encode(local, encoding);
+  report.matrixError = local.interreflected.empty()
+                           ? encode::encodingError(local.shadowed, biScale.shadowed)
+                           : encode::encodingError(local.interreflected, biScale.interreflected);
+  biScale.rtt = 0;
+  biScale.scale = placed.scale;
+  biScale.tiles = placed.tiles;
+  biScale.idMap = std::move(placed.idMap);
+  return biScale;
+}
+
 struct Spreader {
   scene::Scene& scene;
   const encode::EncodedRtt& rtt;
@@ -152,7 +177,9 @@ struct Spreader {
     scene.meshes[index].material = material;
     const scene::Mesh& mesh = scene.meshes[index];
 
-    auto field = synthesis::tangentField(mesh, {.direction = options.direction}, findings);
+    auto field = staged(progress, "tangent field", [&] {
+      return synthesis::tangentField(mesh, {.direction = options.direction}, findings);
+    });
     if (!field) return named(field.error(), mesh, index);
 
     const Vec2 patch = placed.scale * rtt.size;
@@ -166,10 +193,14 @@ struct Spreader {
     auto meso = synthesis::mesoMesh(mesh, *field, mesoOptions, progress);
     if (!meso) return named(meso.error(), mesh, index);
 
-    if (!appearance) appearance = synthesis::appearanceOf(encode::decode(rtt));
+    if (!appearance)
+      appearance = staged(progress, "appearance",
+                          [&] { return synthesis::appearanceOf(encode::decode(rtt)); });
     synthesis::SynthesisOptions synthesisOptions;
     synthesisOptions.patchSize = patch;
-    synthesisOptions.randomness = options.randomness;
+    synthesisOptions.randomness =
+        options.randomness.value_or(0.5f * (1.0f - float(synthesis::regularityOf(*appearance))));
+    report.randomness = synthesisOptions.randomness;
     synthesisOptions.seed = options.seed;
     auto coordinates = synthesis::synthesize(*meso, *appearance, synthesisOptions, progress);
     if (!coordinates) return named(coordinates.error(), mesh, index);
@@ -251,27 +282,26 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
   }
   dropUnused(scene);
 
-  const auto rays = trace::RayScene::build(scene);
+  const auto rays =
+      staged(progress, "ray structure", [&] { return trace::RayScene::build(scene); });
   if (!rays) return rays.error();
   auto field = transport::bake(scene, *rays, bakeOptions, progress, findings);
   if (!field) return field.error();
   encode::EncodedField& transfer = spread.asset.transfer;
-  transfer = encode::encode(*field, options.vectorEncoding);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const transport::LocalTransfer& local = *field->meshes[all[k].mesh].local;
-    encode::EncodedBiScale& biScale = *transfer.meshes[all[k].mesh].biScale;
-    const std::size_t matrix = std::size_t(local.bands) * local.bands * local.bands * local.bands;
-    biScale.shadowed = encode::encode(local.shadowed, options.matrixEncoding, matrix);
-    biScale.interreflected = encode::encode(local.interreflected, options.matrixEncoding, matrix);
-    spread.reports[k].matrixError =
-        local.interreflected.empty()
-            ? encode::encodingError(local.shadowed, biScale.shadowed)
-            : encode::encodingError(local.interreflected, biScale.interreflected);
-    biScale.rtt = 0;
-    biScale.scale = all[k].scale;
-    biScale.tiles = all[k].tiles;
-    biScale.idMap = std::move(all[k].idMap);
-  }
+  transfer = staged(progress, "encode", [&] {
+    // The matrices have an encoding of their own.
+    std::vector<transport::LocalTransfer> locals;
+    for (const Placed& placed : all) {
+      transport::LocalTransfer& local = *field->meshes[placed.mesh].local;
+      locals.push_back(std::move(local));
+      local = {};
+    }
+    encode::EncodedField encoded = encode::encode(*field, options.vectorEncoding);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      encoded.meshes[all[k].mesh].biScale =
+          encodeLocal(locals[k], all[k], options.matrixEncoding, spread.reports[k]);
+    return encoded;
+  });
   transfer.rtts = {rtt};
   spread.asset.scene = std::move(scene);
   return spread;

@@ -33,8 +33,11 @@ struct SpreadOptions {
   Vec2 tiles = Vec2(0.0f, 0.0f);   ///< OwnUvs: patches along u and v; 0: from patchWidth
   std::uint32_t mesoVertices = 0;  ///< 0: one for each position of the patch, to 960,000
   std::optional<Vec3> direction;   ///< steers the patch's +x, world space
-  float randomness = 0.5f;         ///< 0 … 1: see synthesis::SynthesisOptions
-  synthesis::AtlasOptions atlas;   ///< its size is the id map's
+  /// 0 … 1: see synthesis::SynthesisOptions. None: what the patch bears, 0 for one that repeats
+  /// itself within its period (a weave would be torn), to 0.5 for one that never does (stucco would
+  /// show its tiles).
+  std::optional<float> randomness;
+  synthesis::AtlasOptions atlas;  ///< its size is the id map's
   std::uint64_t seed = 0;
   Rgb albedo =
       Rgb::Constant(0.5f);          ///< of the patch as a whole: what it sends on to other surfaces
@@ -52,6 +55,7 @@ struct SpreadReport {
   float patchWidth = 0.0f;  ///< metres
   std::uint32_t vertices = 0, mesoVertices = 0;
   std::uint32_t singularities = 0;
+  float randomness = 0.0f;
   std::uint32_t charts = 0;
   double stretch = 1.0, worstStretch = 1.0, usedArea = 0.0;
   bool ownUvs = false;

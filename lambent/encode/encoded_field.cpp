@@ -147,7 +147,8 @@ To copyStatement(const From& from) {
   return to;
 }
 
-/// The matrices; where the patch stands is for the caller to say.
+}  // namespace
+
 EncodedBiScale encode(const transport::LocalTransfer& local, Encoding encoding) {
   EncodedBiScale out;
   out.tangents = local.tangents;
@@ -158,8 +159,6 @@ EncodedBiScale encode(const transport::LocalTransfer& local, Encoding encoding) 
   out.interreflected = encode(local.interreflected, encoding, matrix);
   return out;
 }
-
-}  // namespace
 
 EncodedField encode(const transport::TransferField& field, Encoding encoding) {
   auto encoded = copyStatement<EncodedField>(field);

@@ -79,6 +79,10 @@ struct EncodedBiScale {
   Numbers interreflected;  ///< [receiver][channel][n²][n²], shadows and bounces, or empty
 };
 
+/// Matrices and tangents; Snorm8: a scale for each matrix. Which patch, and where it stands, are
+/// for the caller to fill in.
+EncodedBiScale encode(const transport::LocalTransfer& local, Encoding encoding);
+
 /// transport::MeshTransfer with its numbers encoded; members mean the same.
 struct EncodedMesh {
   transport::Layout layout = transport::Layout::None;
@@ -106,8 +110,7 @@ struct EncodedField {
   std::vector<EncodedRtt> rtts;
 };
 
-/// Snorm8: vectors have a scale for each channel of a receiver, matrices one for each matrix. A
-/// bi-scale mesh gets its matrices and tangents; its patch and where that stands are the caller's.
+/// Snorm8: vectors have a scale for each channel of a receiver, matrices one for each matrix.
 EncodedField encode(const transport::TransferField& field, Encoding encoding);
 transport::TransferField decode(const EncodedField& field);
 

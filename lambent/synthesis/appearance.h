@@ -26,4 +26,9 @@ struct Appearance {
 /// those beyond the responses' rank are 0.
 Appearance appearanceOf(const meso::RadianceTransferTexture& rtt, int dimensions = 8);
 
+/// How far the patch repeats itself within its own period, 0 … 1: the largest autocorrelation of
+/// the descriptors at a shift of a quarter of the period or more. A plain weave or a grid of holes
+/// has 1; a random relief has little.
+double regularityOf(const Appearance& appearance);
+
 }  // namespace lambent::synthesis

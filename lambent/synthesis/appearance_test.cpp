@@ -113,5 +113,15 @@ TEST(Appearance, TheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(std::memcmp(values[0].data(), values[1].data(), 4 * values[0].size()), 0);
 }
 
+TEST(Regularity, TellsWeavesFromRandomReliefs) {
+  EXPECT_GT(regularityOf(appearanceOf(patchOf(weaveAlbedo, 64))), 0.999);
+  EXPECT_LT(regularityOf(appearanceOf(patchOf(stuccoAlbedo, 64))), 0.5);
+  // One spot in the whole period is met again nowhere.
+  const auto spot = [](float u, float v) {
+    return Rgb(Rgb::Constant(std::hypot(u - 0.5f, v - 0.5f) < 0.1f ? 1.0f : 0.2f));
+  };
+  EXPECT_LT(regularityOf(appearanceOf(patchOf(spot, 32))), 0.05);
+}
+
 }  // namespace
 }  // namespace lambent::synthesis

@@ -8,7 +8,7 @@ from pathlib import Path
 from harness import USAGE, ToolTest, ball_obj, png, quad_obj, read_csv
 
 GLTF_MODULES = os.environ["LAMBENT_GLTF_MODULES"]
-SMALL = ("--size", "16x16", "--views", 4, "--bands", 3, "--directions", 128, "--bounces", 1)
+SMALL = ("--positions", "16x16", "--views", 4, "--bands", 3, "--directions", 128, "--bounces", 1)
 
 
 class BiScaleTest(ToolTest):
