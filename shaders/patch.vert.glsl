@@ -1,8 +1,9 @@
 // A surface with meso-structure: vertices are pulled from buffers by their index. What the
 // rasteriser interpolates is the light that arrives at the meso-structure, M L (sloan2003biscale §5).
 //
-// Before this text stand: #define LAMBENT_GROUPS, the light's numbers in groups of four, and
-// LAMBENT_INTERPOLATED 1, or 0 where the rasteriser does not take as many.
+// Before this text stand: #define LAMBENT_GROUPS, the light's numbers in groups of four;
+// LAMBENT_EACH_GROUP(DO), which is DO(0) DO(1) … for all of them; and LAMBENT_INTERPOLATED 1, or 0
+// where the rasteriser does not take as many.
 
 struct Vertex {
   vec4 positionU;
@@ -28,7 +29,8 @@ void main() {
   normalU = vec4(vertex.normalV.xyz, vertex.positionU.w);
   tangentV = vec4(vertex.tangent.xyz, vertex.normalV.w);
 #if LAMBENT_INTERPOLATED
-  for (int i = 0; i < LAMBENT_GROUPS; ++i) incident[i] = light[gl_VertexID * LAMBENT_GROUPS + i];
+#define COPY(i) incident[i] = light[gl_VertexID * LAMBENT_GROUPS + i];
+  LAMBENT_EACH_GROUP(COPY)
 #endif
   gl_Position = clipFromWorld * vec4(position, 1.0);
 }

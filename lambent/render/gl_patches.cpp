@@ -85,10 +85,28 @@ int groupsOf(int bands) {
   return shade::rttStride(bands) / 4;
 }
 
-/// 16-byte texels that hold the numbers of one position and view.
+/// Groups of four numbers in a texel of 16 bytes.
+int groupsAFetch(Encoding encoding) {
+  return encoding == Encoding::Snorm8 ? 4 : encoding == Encoding::Float16 ? 2 : 1;
+}
+
+/// Texels that hold the numbers of one position and view.
 int fetchesOf(int bands, Encoding encoding) {
-  const int each = encoding == Encoding::Snorm8 ? 4 : encoding == Encoding::Float16 ? 2 : 1;
+  const int each = groupsAFetch(encoding);
   return (groupsOf(bands) + each - 1) / each;
+}
+
+/// The loops of patch.vert.glsl and patch.frag.glsl, written out.
+std::string unrolledDefines(int bands, Encoding encoding) {
+  std::string each, response;
+  for (int i = 0; i < groupsOf(bands); ++i) {
+    if (i % groupsAFetch(encoding) == 0)
+      response += fmt::format(" READ({})", i / groupsAFetch(encoding));
+    response += fmt::format(" ADD({})", i);
+    each += fmt::format(" DO({})", i);
+  }
+  return fmt::format("#define LAMBENT_EACH_GROUP(DO){}\n#define LAMBENT_RESPONSE{}", each,
+                     response);
 }
 
 /// One position and view as the shader's texels hold it; `scales` are those of bytes.
@@ -167,6 +185,8 @@ Status GlPatches::addRtt(int index) {
                      wordsEach);
     });
   }
+  if (encoding == Encoding::Snorm8)
+    for (float& scale : rtt.scales) scale /= 127.0f;  // the shader takes bytes as integers
   rtt.numbers = makeBuffer(words);
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
@@ -200,10 +220,10 @@ Status GlPatches::addProgram(int bands, Encoding encoding) {
   glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
   const bool interpolated = 4 * (groupsOf(bands) + 3) <= mostVaryings;
   const std::string defines = fmt::format(
-      "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
-      "#define LAMBENT_FILTER {:d}\n{}\n{}",
+      "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
+      "{}\n{}\n{}",
       groupsOf(bands), interpolated, options_.biScale.filter, numbersDefine(encoding),
-      footprintDefines());
+      unrolledDefines(bands, encoding), footprintDefines());
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",
                                     {defines, std::string(shaderSource("patch.vert.glsl"))}},
