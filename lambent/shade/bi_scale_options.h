@@ -5,8 +5,8 @@
 
 namespace lambent::shade {
 
-/// What the surface as a whole does to light on its way to the meso-structure (sloan2003biscale Figure
-/// 3): nothing, shadows, or shadows and further bounces. Off needs no matrices.
+/// What the surface as a whole does to light on its way to the meso-structure (sloan2003biscale
+/// Figure 3): nothing, shadows, or shadows and further bounces. Off needs no matrices.
 enum class MacroTransport { Off, Shadowed, Interreflected };
 
 struct BiScaleOptions {
@@ -15,7 +15,8 @@ struct BiScaleOptions {
   /// middle or, where their number is even, the mean of the four around it), so that the patch
   /// looks pasted on (sloan2003biscale Figure 6c).
   bool viewDependent = true;
-  /// Average the patch over what a sub-sample covers. Off: the nearest position, as sloan2003biscale §5.
+  /// Average the patch over what a sub-sample covers. Off: the nearest position, as
+  /// sloan2003biscale §5.
   bool filter = true;
 };
 

@@ -260,6 +260,39 @@ TEST(BiScale, FilteringComesNearerToManySamples) {
   EXPECT_TRUE(mean(rmse(1, true, &truth).first).isApprox(mean(truth), 0.01f));
 }
 
+// The patch's size on the surface: by the texture coordinates' slope, or by the map's stated scale.
+TEST(BiScale, FiltersAMapAsItFiltersTextureCoordinates) {
+  SpreadOptions options;
+  options.tangent = Vec3::UnitX();
+  options.tiles = Vec2(4, 4);  // over 2 m: the patch of 1 m at half its size
+  const meso::RadianceTransferTexture rtt = test::bumpyRtt(32, 32, 4, 3);
+  const asset::Asset plain = floorOf(rtt, options);
+  options.scale = 0.5f;
+  synthesis::IdMap map;
+  map.width = map.height = 1024;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      map.ids.push_back(std::uint16_t((64 * 4 * x + 128) & 0xffff));
+      map.ids.push_back(std::uint16_t(-(64 * 4 * y + 128) & 0xffff));
+    }
+  options.idMap = map;
+  const asset::Asset mapped = floorOf(rtt, options);
+  options.scale = 0.125f;
+  const asset::Asset misstated = floorOf(rtt, options);
+
+  PictureOptions picture48;
+  picture48.width = picture48.height = 48;
+  picture48.samples = 1;
+  const scene::Camera camera = test::cameraAt(Vec3(0.4f, 1.2f, 5.0f), Vec3::Zero());
+  const auto shown = [&](const asset::Asset& asset) {
+    return picture(asset, unevenLight(3), {}, camera, picture48);
+  };
+  const auto a = shown(plain), b = shown(mapped), c = shown(misstated);
+  ASSERT_TRUE(a && b && c);
+  const double same = image::compare(*b, *a)->rmse, other = image::compare(*c, *a)->rmse;
+  EXPECT_LT(same, 0.1 * other);
+}
+
 TEST(BiScale, ASurfaceNearByIsNotFiltered) {
   SpreadOptions options;
   options.tiles = Vec2(1, 1);

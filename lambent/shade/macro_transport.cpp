@@ -1,5 +1,6 @@
 // This work is based on:
-// - sloan2003biscale: bi-scale radiance transfer, eq. 2 and the right vector M_p L of eq. 4. M_p holds
+// - sloan2003biscale: bi-scale radiance transfer, eq. 2 and the right vector M_p L of eq. 4. M_p
+// holds
 //   the rotation into the tangent frame; where there is no M_p, the rotation is what is left of it.
 
 #include "lambent/shade/macro_transport.h"

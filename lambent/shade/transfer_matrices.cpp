@@ -1,5 +1,5 @@
-// The product M L of sloan2002precomputed eq. 9 and sloan2003biscale eq. 4 over all receivers, by the
-// kernels of this machine.
+// The product M L of sloan2002precomputed eq. 9 and sloan2003biscale eq. 4 over all receivers, by
+// the kernels of this machine.
 
 #include "lambent/shade/transfer_matrices.h"
 
