@@ -189,8 +189,8 @@ void biscaleRttMethods(const Studio& studio) {
     // Two converged answers by different ways: how far they are apart is what neither can be held
     // to.
     meso::RttOptions options;
-    options.width = options.height = 32;
-    options.views = 4;
+    options.width = options.height = 24;
+    options.views = 4, options.supersample = 1;
     options.bounces = 3;
     meso::RttOptions converged = options;
     converged.directions = studio.quick ? 1024 : 8192, converged.seed = 1;
@@ -210,7 +210,6 @@ void biscaleRttMethods(const Studio& studio) {
       options.directions = directions;
       row(fmt::format("gather, {} directions", directions), build(patch, options));
     }
-    options.directions = 512;
     options.method = meso::RttMethod::Images;
     for (const int polar : {8, 16}) {
       options.polarLights = polar, options.azimuthLights = 2 * polar;

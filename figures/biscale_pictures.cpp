@@ -181,7 +181,7 @@ void biscaleFigure4(const Studio& studio) {
   const Vec3 a = towards(215, 40), c = towards(20, 30);
   const std::vector<sh::RgbCoefficients> lights = {
       smallestLight(a, power), discLight(a, 110, power).project(5), smallestLight(c, power),
-      discLight(c, 110, power).project(5), asBright(studio.hdri("forest"), 0.6f)};
+      discLight(c, 110, power).project(5), asBright(studio.hdri("forest"), 0.3f)};
   Sheet sheet;
   sheet.columnLabels = {"(a) smallest", "(b) 110 deg", "(c) smallest", "(d) 110 deg",
                         "(e) environment"};
