@@ -208,7 +208,7 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->required();
   app->add_option("--patch-width", options.patchWidth,
                   "How much of the surface the patch's width covers, in the model's units; 0: "
-                  "about 200 patches over the whole surface")
+                  "about 200 patches over the whole surface, or as many as --vertices can show")
       ->check(CLI::NonNegativeNumber)
       ->option_text("LENGTH")
       ->capture_default_str()

@@ -24,7 +24,7 @@ namespace lambent::bi_scale {
 namespace {
 
 constexpr std::uint32_t kMostMesoVertices = 960000;
-constexpr double kAutomaticPositions = 819200.0;
+constexpr double kAutomaticPatches = 200.0;
 
 /// Names a stage that does not say how far it is, when it begins and when it ends.
 template <class Work>
@@ -232,8 +232,9 @@ double areaOf(const scene::Mesh& mesh) {
   return area;
 }
 
-float automaticPatchWidth(double area, const encode::EncodedRtt& rtt) {
-  const double patches = kAutomaticPositions / (double(rtt.width) * rtt.height);
+float automaticPatchWidth(double area, const encode::EncodedRtt& rtt, std::uint32_t mesoVertices) {
+  const double vertices = mesoVertices > 0 ? mesoVertices : kMostMesoVertices;
+  const double patches = std::min(kAutomaticPatches, vertices / (double(rtt.width) * rtt.height));
   const double aspect = double(rtt.size.y()) / rtt.size.x();
   return float(std::sqrt(area / (patches * aspect)));
 }
@@ -250,8 +251,9 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
   double area = 0.0;
   for (const std::uint32_t m : *chosen) area += areaOf(scene.meshes[m]);
   if (!(area > 0.0)) return report::badInput("the surface has no area to spread the patch over");
-  const float width =
-      options.patchWidth > 0.0f ? options.patchWidth : automaticPatchWidth(area, rtt);
+  const float width = options.patchWidth > 0.0f
+                          ? options.patchWidth
+                          : automaticPatchWidth(area, rtt, options.mesoVertices);
 
   Spread spread;
   Spreader spreader{scene, rtt, options, progress, findings, spread, {}};

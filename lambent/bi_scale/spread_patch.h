@@ -27,8 +27,7 @@ enum class Placement {
 struct SpreadOptions {
   std::vector<std::uint32_t> meshes;  ///< that carry the patch; empty: all that are no mirrors
   Placement placement = Placement::Synthesized;
-  /// Metres of the surface that the patch's width covers; 0: as many patches as the densest
-  /// meso-mesh can resolve (see automaticPatchWidth).
+  /// Metres of the surface that the patch's width covers; 0: see automaticPatchWidth.
   float patchWidth = 0.0f;
   Vec2 tiles = Vec2(0.0f, 0.0f);   ///< OwnUvs: patches along u and v; 0: from patchWidth
   std::uint32_t mesoVertices = 0;  ///< 0: one for each position of the patch, to 960,000
@@ -75,9 +74,9 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
                            const SpreadOptions& options, const Progress& progress,
                            Findings& findings);
 
-/// The width at which a surface of `area` m² holds as many positions of the patch as a meso-mesh of
-/// 819,200 vertices has: the finest that synthesis shows in full.
-float automaticPatchWidth(double area, const encode::EncodedRtt& rtt);
+/// The width at which a surface of `area` m² holds 200 patches or, if that is fewer, as many as a
+/// meso-mesh of so many vertices (0: 960,000) shows position by position.
+float automaticPatchWidth(double area, const encode::EncodedRtt& rtt, std::uint32_t mesoVertices);
 
 double areaOf(const scene::Mesh& mesh);  ///< m²
 

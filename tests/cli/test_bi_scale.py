@@ -65,7 +65,7 @@ class Spread(BiScaleTest):
 
     def test_a_flat_patch_is_diffuse_transfer(self):
         """B of a flat patch is the cosine lobe: bi-scale must equal what `bake` makes."""
-        self.write("flat.png", png(8, 8))
+        self.write("flat.png", png(8, 8, lambda x, y: (128, 128, 128)))
         self.rtt("flat.png", "patch.rtt", *SMALL, "--depth", 0, "--albedo", 0.6,
                  "--encoding", "float32")
         self.write("ball.obj", ball_obj(24, 12))
