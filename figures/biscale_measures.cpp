@@ -215,7 +215,7 @@ void biscaleRttMethods(const Studio& studio) {
       options.polarLights = polar, options.azimuthLights = 2 * polar;
       row(fmt::format("eq. 5, {} x {} lights", polar, 2 * polar), build(patch, options));
     }
-    row(fmt::format("gather, {} directions, another seed", converged.directions), exact);
+    row(fmt::format("gather, {} directions", converged.directions), exact);
     row(fmt::format("eq. 5, {} x {} lights", imagesConverged.polarLights,
                     imagesConverged.azimuthLights),
         exactImages);
