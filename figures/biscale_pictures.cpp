@@ -253,7 +253,7 @@ void biscaleFigure3(const Studio& studio) {
 }
 
 void biscaleFigure6(const Studio& studio) {
-  const int side = studio.pixels(340);
+  const int side = studio.pixels(270);
   struct Row {
     const char *label, *file, *patch, *light;
     float patches, turn;
