@@ -307,7 +307,9 @@ TEST_F(BiScaleHostile, Members) {
                 [](json& d) { patch(d, 0)["idMap"]["width"] = 3; });
   expectRefused("idMap.height: is not an integer",
                 [](json& d) { patch(d, 0)["idMap"]["height"] = 100000; });
-  expectRefused("tiles: is not an array of at most 2", [](json& d) { patch(d, 1)["tiles"] = {1, 2, 3}; });
+  expectRefused("tiles: is not an array of at most 2", [](json& d) {
+    patch(d, 1)["tiles"] = {1, 2, 3};
+  });
   expectRefused("tangent 0 is not", [](json& d) {
     patch(d, 0)["tangents"] = d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
   });

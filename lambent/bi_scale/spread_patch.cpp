@@ -26,15 +26,17 @@ namespace {
 constexpr std::uint32_t kMostMesoVertices = 960000;
 constexpr double kAutomaticPatches = 200.0;
 
+/// Names a stage that first speaks when it has got somewhere, so that its time counts from here.
+void announce(const Progress& progress, std::string_view stage) {
+  if (progress) (void)progress({stage, 0, 0, ""});
+}
+
 /// Names a stage that does not say how far it is, when it begins and when it ends.
 template <class Work>
 auto staged(const Progress& progress, std::string_view stage, Work&& work) {
-  const auto tell = [&] {
-    if (progress) (void)progress({stage, 0, 0, ""});
-  };
-  tell();
+  announce(progress, stage);
   auto result = work();
-  tell();
+  announce(progress, stage);  // its last update, too
   return result;
 }
 
@@ -169,8 +171,8 @@ struct Spreader {
 
   Status bySynthesis(std::uint32_t index, SpreadReport& report, Placed& placed,
                      std::vector<Vec3>& tangents) {
-    synthesis::AtlasOptions atlasOptions = options.atlas;
-    auto atlas = synthesis::makeAtlas(scene.meshes[index], atlasOptions, findings, progress);
+    announce(progress, "charts");
+    auto atlas = synthesis::makeAtlas(scene.meshes[index], options.atlas, findings, progress);
     if (!atlas) return named(atlas.error(), scene.meshes[index], index);
     const int material = scene.meshes[index].material;
     scene.meshes[index] = atlas->mesh;
@@ -190,6 +192,7 @@ struct Spreader {
             ? options.mesoVertices
             : std::uint32_t(std::clamp(std::ceil(positions), 1024.0, double(kMostMesoVertices)));
     mesoOptions.seed = options.seed;
+    announce(progress, "meso-mesh");
     auto meso = synthesis::mesoMesh(mesh, *field, mesoOptions, progress);
     if (!meso) return named(meso.error(), mesh, index);
 
@@ -202,9 +205,11 @@ struct Spreader {
         options.randomness.value_or(0.5f * (1.0f - float(synthesis::regularityOf(*appearance))));
     report.randomness = synthesisOptions.randomness;
     synthesisOptions.seed = options.seed;
+    announce(progress, "texture synthesis");
     auto coordinates = synthesis::synthesize(*meso, *appearance, synthesisOptions, progress);
     if (!coordinates) return named(coordinates.error(), mesh, index);
 
+    announce(progress, "id map");
     auto ids = synthesis::placeIds(*atlas, *meso, *coordinates,
                                    {.size = options.atlas.size, .patchSize = patch}, progress);
     if (!ids) return named(ids.error(), mesh, index);

@@ -165,6 +165,8 @@ Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Fi
   if (progress && !progress({"packing", 0, shapes.size(), "charts"})) return report::cancelled();
   Result<Packing> packing = pack(shapes, {options.size, options.gutter});
   if (!packing) return packing.error();
+  if (progress && !progress({"packing", shapes.size(), shapes.size(), "charts"}))
+    return report::cancelled();
 
   Atlas atlas;
   atlas.charts = static_cast<std::uint32_t>(charts.size());
