@@ -53,7 +53,7 @@ std::vector<SquareView> squareViews(int width) {
 
 /// An environment whose radiance, in the mean over the sphere, is as bright as `mean`.
 sh::RgbCoefficients asBright(const light::Environment& environment, float mean) {
-  sh::RgbCoefficients light = environment.project(5);
+  sh::RgbCoefficients light = fiveBands(environment);
   double sum = 0.0;
   for (int c = 0; c < 3; ++c) sum += light.channel(c)[0] / (3 * std::sqrt(4 * kPi));
   for (int c = 0; c < 3; ++c)

@@ -214,5 +214,24 @@ TEST(BuildRtt, SaysThatAPatchIsInsideOut) {
   EXPECT_EQ(findings.back().code, "back-faces-seen");
 }
 
+TEST(BuildRtt, TellsOfTooFewViewsOfADeepPatch) {
+  const auto told = [](const Patch& patch, int views) {
+    RttOptions options;
+    options.width = options.height = 2;
+    options.views = views;
+    options.bands = 1;
+    options.bounces = 0;
+    options.directions = 16;
+    Findings findings;
+    EXPECT_TRUE(buildRtt(patch, options, {}, findings));
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const Finding& finding) { return finding.code == "few-views"; });
+  };
+  EXPECT_TRUE(told(weave(), 8));
+  EXPECT_FALSE(told(weave(), 1));
+  EXPECT_FALSE(told(weave(), 16));
+  EXPECT_FALSE(told(plaster(), 8));
+}
+
 }  // namespace
 }  // namespace lambent::meso
