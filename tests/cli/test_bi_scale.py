@@ -117,6 +117,97 @@ class Spread(BiScaleTest):
         self.assertEqual((info["width"], info["height"]), (512, 256))
 
 
+def torus_obj(around=24, across=12) -> str:
+    lines = []
+    for i in range(around):
+        for j in range(across):
+            a, b = 2 * math.pi * i / around, 2 * math.pi * j / across
+            r = 1 + 0.4 * math.cos(b)
+            lines.append(f"v {r * math.cos(a)} {0.4 * math.sin(b)} {r * math.sin(a)}")
+    for i in range(around):
+        for j in range(across):
+            k, l = (i + 1) % around, (j + 1) % across
+            a, b, c, d = (1 + p * across + q for p, q in ((i, j), (i, l), (k, l), (k, j)))
+            lines += [f"f {a} {b} {c}", f"f {a} {c} {d}"]
+    return "\n".join(lines) + "\n"
+
+
+class OddMeshes(BiScaleTest):
+    """Each works, or says clearly why not."""
+
+    def findings(self, summary) -> set:
+        return {finding["code"] for finding in summary["findings"]}
+
+    def test_a_hole_through_it(self):
+        self.rtt()
+        self.write("torus.obj", torus_obj())
+        surface = self.spread(scene="torus.obj")["surfaces"][0]
+        self.assertEqual(surface["singularities"], 0)
+
+    def test_an_open_mesh_of_two_parts(self):
+        self.rtt()
+        ball = ball_obj(24, 12).splitlines()
+        half = [line for k, line in enumerate(ball) if not (line.startswith("f") and k % 3 == 0)]
+        count = sum(line.startswith("v ") for line in half)
+        away = [f"v {float(line.split()[1]) + 3} {line.split()[2]} {line.split()[3]}"
+                for line in ball if line.startswith("v ")]
+        again = ["f " + " ".join(str(int(c.split("//")[0]) + count) for c in line.split()[1:])
+                 for line in ball if line.startswith("f")]
+        only = [line.replace("//", " ") for line in half if line.startswith("v ")]
+        faces = ["f " + " ".join(c.split("//")[0] for c in line.split()[1:])
+                 for line in half if line.startswith("f")]
+        self.write("parts.obj", "\n".join(only + away + faces + again) + "\n")
+        self.assertGreater(self.spread(scene="parts.obj")["surfaces"][0]["charts"], 1)
+
+    def test_three_triangles_at_an_edge(self):
+        self.rtt()
+        self.write("fin.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\nv 0 1 0\n"
+                              "f 1 3 2\nf 2 3 4\nf 1 2 5\nf 2 1 5\n")
+        self.assertIn("non-manifold-edges", self.findings(self.spread(scene="fin.obj")))
+
+    def test_uvs_that_overlap(self):
+        self.rtt()
+        self.write("quad.obj", quad_obj(((0, 0), (1, 0), (0, 1), (1, 1))))
+        summary = self.spread(scene="quad.obj")
+        self.assertIn("uvs-unsound", self.findings(summary))
+        self.assertFalse(summary["surfaces"][0]["own_uvs"])
+
+    def test_sound_uvs_are_kept(self):
+        self.rtt()
+        self.write("quad.obj", quad_obj(((0.1, 0.1), (0.1, 0.9), (0.9, 0.9), (0.9, 0.1))))
+        self.assertTrue(self.spread(scene="quad.obj")["surfaces"][0]["own_uvs"])
+
+
+class OddPatches(BiScaleTest):
+    def test_a_height_field_that_does_not_tile(self):
+        self.write("ramp.png", png(16, 16, lambda x, y: (16 * x,) * 3))
+        summary = self.run_json("rtt", "ramp.png", "-o", "ramp.rtt", *SMALL)
+        self.assertIn("height-field-seam", {f["code"] for f in summary["findings"]})
+        self.run_tool("rtt", "ramp.png", "-o", "blended.rtt", "--blend", 0.3, "--quiet", *SMALL)
+
+    def test_files_that_are_no_patches(self):
+        self.write("bad.png", b"not a picture")
+        self.refused("rtt", "bad.png", "-o", "a.rtt", says="bad.png")
+        self.refused("rtt", "missing.exr", "-o", "a.rtt", says="missing.exr")
+        self.refused("rtt", "velvet", "-o", "a.rtt", code=(USAGE, 3), says="velvet")
+
+    def test_a_measured_btf(self):
+        folder = self.path("btf")
+        folder.mkdir()
+        rows = ["file,view_theta,view_phi,light_theta,light_phi"]
+        for v, (theta, phi) in enumerate(((0, 0), (45, 0), (45, 120), (45, 240))):
+            for l, (light, turn) in enumerate(((0, 0), (40, 0), (40, 90), (40, 180), (40, 270))):
+                grey = int(200 * math.cos(math.radians(light)))
+                (folder / f"{v}-{l}.png").write_bytes(png(8, 8, lambda x, y: (grey,) * 3))
+                rows.append(f"{v}-{l}.png,{theta},{phi},{light},{turn}")
+        (folder / "btf.csv").write_text("\n".join(rows) + "\n")
+        self.run_tool("rtt", "btf", "-o", "btf.rtt", "--positions", "8x8", "--views", 4, "--bands", 3,
+                      "--size", 0.1, "--quiet")
+        self.assertEqual(self.run_json("info", "btf.rtt")["width"], 8)
+        (folder / "2-3.png").unlink()
+        self.refused("rtt", "btf", "-o", "b.rtt", says="2-3.png")
+
+
 class Refused(BiScaleTest):
     def test_files_that_are_no_rtts(self):
         self.write("ball.obj", ball_obj())
