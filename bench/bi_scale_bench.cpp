@@ -6,23 +6,21 @@
 //   INPUTS      folder with bunny.obj (tools/fetch-inputs.sh)
 //
 // Stages are stated in seconds, because what they are compared with is (Sloan 2003 §6: hours); the
-// RTT also as a ratio to bare casts of as many light rays in this run, and a frame as a ratio to a
-// frame of the same mesh with a plain texture.
+// RTT's rays are counted too, and a frame is stated as a ratio to a frame of the same mesh with a
+// plain texture.
 #include <map>
 #include <optional>
 
 #include "bench/figures_file.h"
 #include "lambent/bi_scale/spread_patch.h"
 #include "lambent/light/environment.h"
-#include "lambent/math/random.h"
 #include "lambent/meso/build_rtt.h"
 #include "lambent/meso/effective_albedo.h"
 #include "lambent/meso/generators.h"
-#include "lambent/meso/periodic_scene.h"
 #include "lambent/render/renderer.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/scene_io/load.h"
-#include "lambent/trace/cast.h"
+#include "lambent/trace/ray_scene.h"
 
 namespace {
 
