@@ -53,6 +53,15 @@ std::string formatCount(std::uint64_t count) {
   return fmt::format("{},{:03}", formatCount(count / 1000), count % 1000);
 }
 
+StageTotal inAll(const std::vector<StageTime>& stages) {
+  StageTotal total;
+  for (const StageTime& stage : stages) {
+    total.seconds += stage.seconds;
+    total.lines += fmt::format("  {:<28} {:>8}\n", stage.name, formatSeconds(stage.seconds));
+  }
+  return total;
+}
+
 void ProgressBar::update(const ProgressUpdate& update) {
   const auto now = Clock::now();
   if (!running_ || stages_.back().name != update.stage) {

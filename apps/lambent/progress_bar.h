@@ -27,6 +27,13 @@ struct StageTime {
   std::string unit;
 };
 
+/// The seconds of all stages, and a line of text for each.
+struct StageTotal {
+  double seconds = 0.0;
+  std::string lines;
+};
+StageTotal inAll(const std::vector<StageTime>& stages);
+
 /// Listens to a stage's Progress. The last update of a stage is also its record.
 class ProgressBar {
  public:

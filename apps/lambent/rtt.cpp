@@ -196,12 +196,7 @@ Status runRtt(Arguments arguments, Console& console) {
     if (!status) return status;
   }
 
-  double seconds = 0.0;
-  std::string times;
-  for (const StageTime& stage : console.stages()) {
-    seconds += stage.seconds;
-    times += fmt::format("  {:<28} {:>8}\n", stage.name, formatSeconds(stage.seconds));
-  }
+  const auto [seconds, times] = inAll(console.stages());
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(arguments.output, ignored);
   const std::uint64_t rays = cost.viewRays + cost.lightRays;
