@@ -164,9 +164,14 @@ EncodedField encode(const transport::TransferField& field, Encoding encoding) {
   auto encoded = copyStatement<EncodedField>(field);
   for (const transport::MeshTransfer& mesh : field.meshes) {
     EncodedMesh& out = encoded.meshes.emplace_back(copyShape<EncodedMesh>(mesh));
-    out.vectors = encode(mesh.vectors, encoding, coefficients(mesh.bands));
-    out.matrices =
-        encode(mesh.matrices, encoding, coefficients(mesh.outBands) * coefficients(mesh.inBands));
+    const std::size_t vector = coefficients(mesh.bands);
+    const std::size_t matrix = coefficients(mesh.outBands) * coefficients(mesh.inBands);
+    out.vectors = encode(mesh.vectors, encoding, vector);
+    out.matrices = encode(mesh.matrices, encoding, matrix);
+    if (!mesh.shadowed.empty())
+      out.shadowed = {mesh.shadowed.channels, encode(mesh.shadowed.vectors, encoding, vector),
+                      mesh.shadowed.matrixChannels,
+                      encode(mesh.shadowed.matrices, encoding, matrix)};
     if (mesh.local) out.biScale = encode(*mesh.local, encoding);
   }
   return encoded;
@@ -179,6 +184,8 @@ transport::TransferField decode(const EncodedField& field) {
         decoded.meshes.emplace_back(copyShape<transport::MeshTransfer>(mesh));
     out.vectors = decode(mesh.vectors);
     out.matrices = decode(mesh.matrices);
+    out.shadowed = {mesh.shadowed.channels, decode(mesh.shadowed.vectors),
+                    mesh.shadowed.matrixChannels, decode(mesh.shadowed.matrices)};
     if (mesh.biScale) {
       transport::LocalTransfer& local = out.local.emplace();
       local.tangents = mesh.biScale->tangents;

@@ -83,6 +83,16 @@ struct EncodedBiScale {
 /// for the caller to fill in.
 EncodedBiScale encode(const transport::LocalTransfer& local, Encoding encoding);
 
+/// transport::ShadowedTransfer with its numbers encoded; members mean the same.
+struct EncodedShadowed {
+  int channels = 0;
+  Numbers vectors;
+  int matrixChannels = 0;
+  Numbers matrices;
+
+  bool empty() const { return vectors.empty() && matrices.empty(); }
+};
+
 /// transport::MeshTransfer with its numbers encoded; members mean the same.
 struct EncodedMesh {
   transport::Layout layout = transport::Layout::None;
@@ -96,6 +106,7 @@ struct EncodedMesh {
   Numbers matrices;
   Rgb glossy = Rgb::Zero();
   float lobeExponent = 0.0f;
+  EncodedShadowed shadowed;               ///< kept beside vectors and matrices, or empty
   std::optional<EncodedBiScale> biScale;  ///< then there are neither vectors nor matrices
 
   std::size_t receiverCount() const { return positions.size(); }

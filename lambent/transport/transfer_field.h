@@ -35,6 +35,18 @@ struct LocalTransfer {
   std::vector<float> interreflected;  ///< [receiver][channel][n²][n²], or empty
 };
 
+/// Transfer of the direct light alone, kept beside the interreflected one of the same mesh
+/// (BakeOptions::keepShadowed): with fewer channels where the light's bounces alone have colours.
+/// Bands, albedo and lobe are the mesh's.
+struct ShadowedTransfer {
+  int channels = 0;             ///< of `vectors`: 1 or 3
+  std::vector<float> vectors;   ///< [receiver][channel][n²], or empty
+  int matrixChannels = 0;       ///< of `matrices`: 1 or 3
+  std::vector<float> matrices;  ///< [receiver][channel][outBands²][inBands²], or empty
+
+  bool empty() const { return vectors.empty() && matrices.empty(); }
+};
+
 /// The receivers of one mesh and their transfer. Empty vectors or matrices: the material has no
 /// diffuse, or no glossy, part.
 struct MeshTransfer {
@@ -55,6 +67,7 @@ struct MeshTransfer {
   Rgb glossy = Rgb::Zero();       ///< lobe reflectance k, to be applied when shading
   float lobeExponent = 0.0f;      ///< r; free to change in shading unless interreflection is baked
 
+  ShadowedTransfer shadowed;           ///< kept beside vectors and matrices, or empty
   std::optional<LocalTransfer> local;  ///< bi-scale meshes: then neither vectors nor matrices
 
   std::size_t receiverCount() const { return positions.size(); }

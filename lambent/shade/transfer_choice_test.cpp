@@ -1,0 +1,206 @@
+// Which transfer a choice shows: against bakes of that kind, and against the macro switches.
+
+#include "lambent/shade/transfer_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "lambent/encode/encoded_field.h"
+#include "lambent/scene/shapes.h"
+#include "lambent/shade/macro_transport.h"
+#include "lambent/shade/picture.h"
+#include "lambent/shade/shade.h"
+#include "lambent/shade/test_assets.h"
+#include "lambent/shade/test_patches.h"
+#include "lambent/transport/bake.h"
+
+namespace lambent::shade {
+namespace {
+
+using encode::EncodedMesh;
+using encode::Encoding;
+using transport::TransferKind;
+
+/// A coloured room of every kind: a painted sphere at vertices, a floor on texels with a gutter and
+/// vertex colours, a glossy sphere, a textured floor, a mirror.
+scene::Scene everyKind() {
+  scene::Scene scene;
+  scene::Material painted, paintedFloor, glossy, textured, mirror;
+  painted.diffuse = Rgb(0.8f, 0.5f, 0.3f);
+  paintedFloor.diffuse = Rgb(0.5f, 0.6f, 0.7f);
+  glossy.diffuse = Rgb::Constant(0.2f);
+  glossy.glossy = Rgb(0.7f, 0.6f, 0.5f);
+  glossy.lobeExponent = 20.0f;
+  textured.diffuse = Rgb(0.9f, 0.7f, 0.6f);
+  textured.baseColorTexture = 0;
+  mirror.diffuse = Rgb::Zero();
+  mirror.mirror = Rgb::Constant(0.9f);
+  scene.materials = {painted, paintedFloor, glossy, textured, mirror};
+  scene::Texture texture;
+  texture.width = texture.height = 2;
+  texture.rgba = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 128, 128, 128, 255};
+  scene.textures = {texture};
+
+  scene.meshes = {test::sphere({0, 1.2f, 0}, 1.0f, 6), test::floor({0, 0, 0}, 3.0f),
+                  test::sphere({2.2f, 1, 0}, 0.8f, 5), test::floor({0, -0.5f, 6.5f}, 3.0f),
+                  test::sphere({-2.2f, 1, 0}, 0.8f, 5)};
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) scene.meshes[m].material = int(m);
+  for (std::size_t m : {0u, 1u})
+    for (const Vec3& at : scene.meshes[m].positions)
+      scene.meshes[m].colors.push_back(Rgb(0.5f, 0.75f, 1.0f) -
+                                       0.1f * at.cwiseAbs().cwiseMin(2.0f).array());
+  // A gutter around the floor's texels.
+  for (Vec2& uv : scene.meshes[1].uvs) uv = Vec2(0.2f, 0.2f) + 0.6f * uv;
+  return scene;
+}
+
+asset::Asset baked(TransferKind kind, bool keepShadowed, Encoding encoding = Encoding::Float32) {
+  asset::Asset asset;
+  asset.scene = everyKind();
+  transport::BakeOptions options;
+  options.kind = kind;
+  options.bands = 3;
+  options.glossyBands = 4;
+  options.directions = 256;
+  options.bounces = 2;
+  options.keepShadowed = keepShadowed;
+  options.texels = {{1, 7, 6}};
+  const auto rays = trace::RayScene::build(asset.scene);
+  EXPECT_TRUE(rays);
+  Findings findings;
+  const auto field = transport::bake(asset.scene, *rays, options, {}, findings);
+  EXPECT_TRUE(field) << field.error().message;
+  asset.transfer = encode::encode(*field, encoding);
+  return asset;
+}
+
+void expectSameNumbers(const encode::Numbers& a, const encode::Numbers& b) {
+  EXPECT_EQ(a.size(), b.size());
+  EXPECT_EQ(a.half, b.half);
+  EXPECT_EQ(a.single, b.single);
+  EXPECT_EQ(a.byte, b.byte);
+  EXPECT_EQ(a.scales, b.scales);
+}
+
+void expectSame(const EncodedMesh& a, const EncodedMesh& b) {
+  EXPECT_EQ(a.layout, b.layout);
+  EXPECT_EQ(a.bands, b.bands);
+  EXPECT_EQ(a.channels, b.channels);
+  EXPECT_EQ(a.albedo, b.albedo);
+  EXPECT_EQ(a.outBands, b.outBands);
+  EXPECT_EQ(a.inBands, b.inBands);
+  EXPECT_EQ(a.matrixChannels, b.matrixChannels);
+  EXPECT_TRUE((a.glossy == b.glossy).all());
+  EXPECT_EQ(a.positions, b.positions);
+  expectSameNumbers(a.vectors, b.vectors);
+  expectSameNumbers(a.matrices, b.matrices);
+  EXPECT_TRUE(a.shadowed.empty());
+}
+
+TEST(TransferChoice, UnshadowedIsTheBakeOfThatKind) {
+  for (const Encoding encoding : {Encoding::Float32, Encoding::Float16, Encoding::Snorm8}) {
+    const asset::Asset whole = baked(TransferKind::Interreflected, false, encoding);
+    const asset::Asset bare = baked(TransferKind::Unshadowed, false, encoding);
+    for (std::uint32_t m = 0; m < whole.transfer.meshes.size(); ++m) {
+      SCOPED_TRACE(m);
+      const EncodedMesh chosen = chosenTransfer(whole, m, TransferChoice::Unshadowed);
+      if (m != 1) {
+        expectSame(chosen, bare.transfer.meshes[m]);
+        continue;
+      }
+      // The colour at a texel is interpolated twice over, once by each room: it may differ in its
+      // last bits.
+      const std::vector<float> a = decode(chosen.vectors),
+                               b = decode(bare.transfer.meshes[m].vectors);
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t k = 0; k < a.size(); ++k)
+        EXPECT_NEAR(a[k], b[k], encoding == Encoding::Float32 ? 1e-6 : 2e-3) << k;
+    }
+  }
+}
+
+TEST(TransferChoice, WithoutAKeptOneShadowedFallsToUnshadowed) {
+  const asset::Asset whole = baked(TransferKind::Interreflected, false);
+  EXPECT_FALSE(offers(whole, TransferChoice::Shadowed));
+  EXPECT_TRUE(offers(whole, TransferChoice::Unshadowed));
+  EXPECT_TRUE(offers(whole, TransferChoice::Interreflected));
+  expectSame(chosenTransfer(whole, 0, TransferChoice::Shadowed),
+             chosenTransfer(whole, 0, TransferChoice::Unshadowed));
+  const Status status = checkTransfer(whole, TransferChoice::Shadowed);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::BadUsage);
+  EXPECT_NE(status.error().message.find("unshadowed, interreflected"), std::string::npos);
+  EXPECT_NE(status.error().message.find("--keep-shadowed"), std::string::npos);
+
+  const asset::Asset shadowed = baked(TransferKind::Shadowed, false);
+  EXPECT_TRUE(offers(shadowed, TransferChoice::Shadowed));
+  EXPECT_FALSE(offers(shadowed, TransferChoice::Interreflected));
+  for (const TransferChoice choice :
+       {TransferChoice::Best, TransferChoice::Shadowed, TransferChoice::Interreflected}) {
+    EXPECT_TRUE(isStored(shadowed, 2, choice));
+    expectSame(chosenTransfer(shadowed, 2, choice), shadowed.transfer.meshes[2]);
+  }
+  EXPECT_FALSE(isStored(shadowed, 2, TransferChoice::Unshadowed));
+  EXPECT_TRUE(isStored(shadowed, 4, TransferChoice::Unshadowed));  // a mirror
+}
+
+TEST(TransferChoice, NamesAreThere) {
+  for (const TransferChoice choice : {TransferChoice::Best, TransferChoice::Unshadowed,
+                                      TransferChoice::Shadowed, TransferChoice::Interreflected})
+    EXPECT_EQ(transferChoiceNamed(nameOf(choice)), choice);
+  EXPECT_FALSE(transferChoiceNamed("Best"));
+}
+
+asset::Asset patched(Encoding matrices) {
+  asset::Asset asset;
+  test::SpreadOptions options;
+  options.tiles = Vec2(2, 2);
+  options.matrices = matrices;
+  options.shadowedBands = 4;
+  options.channels = 3;
+  test::addPatched(asset, test::sphere(Vec3::Zero(), 1.0f, 9), test::bumpyRtt(4, 4, 3, 4), options);
+  return asset;
+}
+
+TEST(TransferChoice, OfMesoStructureIsTheMacroSwitch) {
+  const sh::RgbCoefficients light = test::sky().project(4);
+  for (const Encoding encoding : {Encoding::Float32, Encoding::Float16, Encoding::Snorm8}) {
+    const asset::Asset asset = patched(encoding);
+    for (const auto& [choice, macro] :
+         {std::pair{TransferChoice::Unshadowed, MacroTransport::Off},
+          {TransferChoice::Shadowed, MacroTransport::Shadowed},
+          {TransferChoice::Interreflected, MacroTransport::Interreflected}}) {
+      SCOPED_TRACE(nameOf(choice));
+      EXPECT_TRUE(offers(asset, choice));
+      const EncodedMesh chosen = chosenTransfer(asset, 0, choice);
+      ASSERT_EQ(bestOf(*chosen.biScale),
+                macro == MacroTransport::Off ? MacroTransport::Shadowed : macro);
+      const std::vector<float> a = incidentLight(chosen, light, 4, {}),
+                               b = incidentLight(asset.transfer.meshes[0], light, 4, macro);
+      ASSERT_EQ(a.size(), b.size());
+      const float near = choice != TransferChoice::Unshadowed ? 0.0f
+                         : encoding == Encoding::Float32      ? 2e-5f
+                                                              : 4e-3f;
+      for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], near) << k;
+    }
+  }
+}
+
+TEST(TransferChoice, MesoStructureWithoutMatricesHoldsTheRotationAlone) {
+  asset::Asset asset;
+  test::addPatched(asset, test::sphere(Vec3::Zero(), 1.0f, 5), test::bumpyRtt(2, 2, 2, 3), {});
+  EXPECT_FALSE(offers(asset, TransferChoice::Shadowed));
+  EXPECT_TRUE(isStored(asset, 0, TransferChoice::Best));
+  EXPECT_FALSE(isStored(asset, 0, TransferChoice::Unshadowed));
+  const EncodedMesh chosen = chosenTransfer(asset, 0, TransferChoice::Interreflected);
+  EXPECT_EQ(chosen.biScale->bands, 3);
+  const sh::RgbCoefficients light = test::sky().project(5);  // more than the patch takes
+  const std::vector<float> a = incidentLight(chosen, light, 3, {}),
+                           b = incidentLight(asset.transfer.meshes[0], light, 3, {});
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 4e-3f) << k;
+}
+
+}  // namespace
+}  // namespace lambent::shade
