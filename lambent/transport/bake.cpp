@@ -14,13 +14,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <mutex>
 #include <string>
 
 #include "lambent/math/random.h"
+#include "lambent/transport/collect.h"
+#include "lambent/transport/kept_hits.h"
 #include "lambent/transport/simulation.h"
 
 namespace lambent::transport {
@@ -28,26 +29,6 @@ namespace lambent::transport {
 namespace {
 
 constexpr std::size_t kChunk = 64;  ///< receivers that a thread takes at a time
-
-bool isGrey(const Rgb& colour) {
-  return colour[0] == colour[1] && colour[1] == colour[2];
-}
-
-/// One channel serves for R, G and B as long as nothing on the way of the light has a colour.
-int channelsFor(const scene::Scene& scene, const Receivers& receivers, TransferKind kind) {
-  if (kind == TransferKind::Unshadowed) return 1;
-  for (const scene::Mesh& mesh : scene.meshes) {
-    const scene::Material& material = scene.materials[mesh.material];
-    if (!material.isMirror()) continue;
-    const bool painted = material.baseColorTexture >= 0 || !mesh.colors.empty();
-    if (painted || !isGrey(material.mirror)) return 3;
-  }
-  if (kind != TransferKind::Interreflected) return 1;
-  const auto allGrey = [](const std::vector<Rgb>& colours) {
-    return std::all_of(colours.begin(), colours.end(), isGrey);
-  };
-  return allGrey(receivers.diffuse) && allGrey(receivers.glossy) ? 1 : 3;
-}
 
 bool hasMirrors(const scene::Scene& scene) {
   return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const scene::Mesh& mesh) {
@@ -134,60 +115,6 @@ class PassRunner {
   tbb::enumerable_thread_specific<Scratch> scratches_;
 };
 
-/// The hits of a chunk's receivers, kept from pass 0 for the bounces. Directions are kept as a list
-/// or, where that is shorter, as one bit for each direction of the set: 4 to 6 bytes a hit.
-class KeptHits {
- public:
-  void add(const ReceiverHits& hits, std::size_t directionCount) {
-    begin_.push_back(static_cast<std::uint32_t>(receiver_.size()));
-    directionBegin_.push_back(static_cast<std::uint32_t>(directions_.size()));
-    mirroredBegin_.push_back(static_cast<std::uint32_t>(mirrored_.size()));
-    receiver_.insert(receiver_.end(), hits.receiver.begin(), hits.receiver.end());
-    mirrored_.insert(mirrored_.end(), hits.mirrored.begin(), hits.mirrored.end());
-    const std::size_t words = wordsFor(directionCount);
-    if (hits.direction.size() <= words) {
-      directions_.insert(directions_.end(), hits.direction.begin(), hits.direction.end());
-      return;
-    }
-    const std::size_t first = directions_.size();
-    directions_.resize(first + words);
-    for (const std::uint16_t d : hits.direction)
-      directions_[first + d / 16] |= static_cast<std::uint16_t>(1u << (d % 16));
-  }
-
-  /// Gives back what add() number `which` took: hits are in the sequence of their directions.
-  void get(std::size_t which, std::size_t directionCount, ReceiverHits& hits) const {
-    const auto slice = [which](const auto& from, const auto& starts, auto& to) {
-      const std::size_t last = which + 1 < starts.size() ? starts[which + 1] : from.size();
-      to.assign(from.begin() + starts[which], from.begin() + static_cast<std::ptrdiff_t>(last));
-    };
-    slice(receiver_, begin_, hits.receiver);
-    slice(mirrored_, mirroredBegin_, hits.mirrored);
-    const std::size_t words = wordsFor(directionCount);
-    if (hits.receiver.size() <= words) return slice(directions_, directionBegin_, hits.direction);
-    hits.direction.clear();
-    for (std::size_t w = 0; w < words; ++w)
-      for (unsigned bits = directions_[directionBegin_[which] + w]; bits != 0; bits &= bits - 1)
-        hits.direction.push_back(static_cast<std::uint16_t>(16 * w + std::countr_zero(bits)));
-  }
-
-  std::size_t bytes() const {
-    return receiver_.size() * 4 + directions_.size() * 2 + mirrored_.size() * sizeof(MirroredHit);
-  }
-  void shrink() {
-    receiver_.shrink_to_fit(), directions_.shrink_to_fit(), mirrored_.shrink_to_fit();
-  }
-  bool empty() const { return begin_.empty(); }
-
- private:
-  static std::size_t wordsFor(std::size_t directionCount) { return (directionCount + 15) / 16; }
-
-  std::vector<std::uint32_t> begin_, directionBegin_, mirroredBegin_;  ///< of every receiver
-  std::vector<std::uint32_t> receiver_;
-  std::vector<std::uint16_t> directions_;
-  std::vector<MirroredHit> mirrored_;
-};
-
 /// The whole of a bake's state: sums over passes, and the pass before.
 class Bake {
  public:
@@ -217,6 +144,9 @@ class Bake {
   TransferField finish() const;
 
  private:
+  bool keepsShadowed() const {
+    return s_.options.keepShadowed && s_.options.kind == TransferKind::Interreflected;
+  }
   bool runDirect(bool bouncing);
   bool runBounce(int bounce);
   void castAndSort(std::uint32_t receiver, Scratch& scratch) const;
@@ -227,14 +157,13 @@ class Bake {
     passEnergy_.push_back(sum / std::max<double>(1.0, static_cast<double>(s_.receivers.size())));
   }
   static void tell(const HitCounts& counts, Findings& findings);
-  LocalTransfer localOf(const Receivers::PerMesh& place) const;
 
   const Simulation& s_;
   PassRunner runner_;
   std::vector<std::uint32_t> order_;          ///< neighbours after each other: caches stay warm
   std::vector<float> total_, totalMatrices_;  ///< sums over passes of E and M
-  std::vector<float> shadowedMatrices_;       ///< pass 0 alone, if it is to be kept
-  std::vector<float> exitRows_, matrices_;    ///< the pass before: ρ/π E, M
+  std::vector<float> shadowed_, shadowedMatrices_;  ///< those of pass 0, if they are to be kept
+  std::vector<float> exitRows_, matrices_;          ///< the pass before: ρ/π E, M
   std::vector<float> nextRows_, nextMatrices_;
   std::vector<KeptHits> kept_;
   std::vector<double> passEnergy_;
@@ -322,7 +251,7 @@ bool Bake::runDirect(bool bouncing) {
         }
       });
   sumEnergy(energy);
-  if (bouncing && s_.options.keepShadowed) shadowedMatrices_ = totalMatrices_;
+  if (keepsShadowed()) shadowed_ = total_, shadowedMatrices_ = totalMatrices_;
   return finished;
 }
 
@@ -373,23 +302,6 @@ void Bake::tell(const HitCounts& counts, Findings& findings) {
                         counts.inside});
 }
 
-LocalTransfer Bake::localOf(const Receivers::PerMesh& place) const {
-  LocalTransfer local;
-  local.tangents = place.local->tangents;
-  local.bands = s_.inBands;
-  if (s_.options.kind == TransferKind::Unshadowed || place.count == 0) return local;
-  const std::size_t first = s_.matrixIndex[place.first] * s_.matrixStride();
-  if (s_.options.kind == TransferKind::Shadowed) {
-    local.shadowed = inTangentFrames(s_, place, totalMatrices_.data() + first, 1);
-    return local;
-  }
-  local.channels = s_.channels;
-  local.interreflected = inTangentFrames(s_, place, totalMatrices_.data() + first, local.channels);
-  if (s_.options.keepShadowed)
-    local.shadowed = inTangentFrames(s_, place, shadowedMatrices_.data() + first, 1);
-  return local;
-}
-
 TransferField Bake::finish() const {
   const BakeOptions& options = s_.options;
   TransferField field;
@@ -399,68 +311,10 @@ TransferField Bake::finish() const {
   field.bounces = static_cast<int>(passEnergy_.size()) - 1;
   field.seed = options.seed;
   field.passEnergy = passEnergy_;
-  field.meshes.resize(s_.scene.meshes.size());
-  for (std::size_t m = 0; m < field.meshes.size(); ++m) {
-    const scene::Mesh& mesh = s_.scene.meshes[m];
-    const scene::Material& material = s_.scene.materials[mesh.material];
-    const Receivers::PerMesh& place = s_.receivers.meshes[m];
-    MeshTransfer& out = field.meshes[m];
-    out.layout = place.layout;
-    if (place.layout == Layout::None) continue;
-    out.width = place.width, out.height = place.height;
-    out.covered = place.covered;
-    // The receiver that each stored place copies.
-    std::vector<std::uint32_t> source = place.receiverOfTexel;
-    if (place.layout == Layout::Vertices) {
-      source.resize(place.count);
-      for (std::uint32_t k = 0; k < place.count; ++k) source[k] = place.first + k;
-    }
-    for (const std::uint32_t r : source) {
-      out.positions.push_back(s_.receivers.positions[r]);
-      out.normals.push_back(s_.receivers.normals[r]);
-    }
-    if (place.local) {
-      out.local = localOf(place);
-      continue;
-    }
-    out.albedo = material.baseColorTexture >= 0 ? Albedo::BaseColor : Albedo::Included;
-    const auto reflectance = [&](std::uint32_t r) -> Rgb {
-      return out.albedo == Albedo::BaseColor ? material.diffuse : s_.receivers.diffuse[r];
-    };
-    if (place.isDiffuse) {
-      const bool grey =
-          s_.channels == 1 && std::all_of(source.begin(), source.end(),
-                                          [&](std::uint32_t r) { return isGrey(reflectance(r)); });
-      out.bands = options.bands;
-      out.channels = grey ? 1 : 3;
-      out.vectors.reserve(source.size() * out.channels * s_.inCount);
-      for (const std::uint32_t r : source) {
-        const Rgb rho = reflectance(r);
-        const float* e = total_.data() + r * s_.rowStride;
-        for (int c = 0; c < out.channels; ++c) {
-          const double factor = rho[c] / kPi;
-          const float* channel = e + (s_.channels == 1 ? 0 : c) * s_.inCount;
-          for (std::size_t j = 0; j < s_.inCount; ++j)
-            out.vectors.push_back(static_cast<float>(factor * channel[j]));
-        }
-      }
-    }
-    if (place.isGlossy) {
-      out.inBands = s_.inBands, out.outBands = s_.outBands;
-      out.matrixChannels = s_.channels;
-      out.glossy = material.glossy;
-      out.lobeExponent = material.lobeExponent;
-      out.matrices.reserve(source.size() * s_.channels * s_.outCount * s_.inCount);
-      for (const std::uint32_t r : source) {
-        const float* matrix = totalMatrices_.data() + s_.matrixIndex[r] * s_.matrixStride();
-        for (int c = 0; c < s_.channels; ++c)
-          for (std::size_t i = 0; i < s_.outCount; ++i) {
-            const float* row = matrix + i * s_.rowStride + c * s_.inCount;
-            out.matrices.insert(out.matrices.end(), row, row + s_.inCount);
-          }
-      }
-    }
-  }
+  const Totals totals{total_.data(), totalMatrices_.data()};
+  const Totals shadowed{shadowed_.data(), shadowedMatrices_.data()};
+  for (std::uint32_t m = 0; m < s_.scene.meshes.size(); ++m)
+    field.meshes.push_back(transferOf(s_, m, totals, keepsShadowed() ? &shadowed : nullptr));
   return field;
 }
 

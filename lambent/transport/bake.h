@@ -37,8 +37,8 @@ struct BakeOptions {
   std::size_t hitMemory = std::size_t(3) << 30;
   std::vector<TexelGrid> texels;     ///< meshes not named here are baked at their vertices
   std::vector<LocalFrames> biScale;  ///< meshes whose transfer is local
-  /// Keep the shadowed matrices of bi-scale meshes beside the interreflected ones, to switch
-  /// between them.
+  /// For Interreflected: keep the shadowed vectors and matrices beside, to switch between them.
+  /// They cost memory and a larger asset, and no time.
   bool keepShadowed = false;
 };
 

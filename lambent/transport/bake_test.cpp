@@ -129,6 +129,46 @@ TEST(Bake, EveryKindOfReceiverIsServed) {
   EXPECT_LT(field->passEnergy[1], field->passEnergy[0]);
 }
 
+// The direct light is the same numbers whether bounces follow or not: kept, it is a shadowed bake.
+TEST(Bake, KeptShadowedTransferIsAShadowedBake) {
+  scene::Scene painted = mixedScene(), grey = painted;
+  for (scene::Material& material : grey.materials)
+    if (material.isMirror()) material.mirror = Rgb::Constant(0.8f);
+  for (const bool isPainted : {true, false})
+    for (const std::size_t memory : {std::size_t(1) << 30, std::size_t(0)})
+      for (const int bounces : {0, 2}) {
+        const scene::Scene& scene = isPainted ? painted : grey;
+        BakeOptions options = small();
+        options.glossyBands = 2;
+        options.texels = {{0, 20, 12}};
+        options.hitMemory = memory;
+        options.kind = TransferKind::Shadowed;
+        Findings findings;
+        const auto alone = bakeScene(scene, options, findings);
+        options.kind = TransferKind::Interreflected;
+        options.bounces = bounces;
+        const auto plain = bakeScene(scene, options, findings);
+        options.keepShadowed = true;
+        const auto both = bakeScene(scene, options, findings);
+        ASSERT_TRUE(alone && plain && both);
+        expectSameNumbers(*both, *plain);
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+          const MeshTransfer& a = alone->meshes[m];
+          const ShadowedTransfer& kept = both->meshes[m].shadowed;
+          EXPECT_EQ(kept.channels, a.channels);
+          EXPECT_EQ(kept.vectors, a.vectors);
+          EXPECT_EQ(kept.matrixChannels, a.matrixChannels);
+          EXPECT_EQ(kept.matrices, a.matrices);
+          EXPECT_TRUE(a.shadowed.empty() && plain->meshes[m].shadowed.empty());
+        }
+        EXPECT_FALSE(both->meshes[0].shadowed.vectors.empty());
+        EXPECT_FALSE(both->meshes[2].shadowed.matrices.empty());
+        // Only what has a colour of its own, or is lit by a painted mirror, needs three channels.
+        EXPECT_EQ(both->meshes[2].shadowed.matrixChannels, isPainted ? 3 : 1);
+        EXPECT_EQ(both->meshes[2].matrixChannels, 3);
+      }
+}
+
 TEST(Bake, StopsWhenAPassHasLittleEnergy) {
   Findings findings;
   BakeOptions options = small();
