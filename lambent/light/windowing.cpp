@@ -1,0 +1,48 @@
+#include "lambent/light/windowing.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "lambent/sh/window.h"
+
+namespace lambent::light {
+
+Result<Windowing> parseWindowing(std::string_view text) {
+  using Kind = Windowing::Kind;
+  const std::size_t colon = text.find(':');
+  const std::string_view name = text.substr(0, colon);
+  Windowing windowing;
+  if (name == "hann") windowing.kind = Kind::Hann;
+  if (name == "lanczos") windowing.kind = Kind::Lanczos;
+  if (name == "minimal") windowing.kind = Kind::Minimal;
+  const bool hasWidth = windowing.kind == Kind::Hann || windowing.kind == Kind::Lanczos;
+  const bool known = windowing.kind != Kind::None || name == "none";
+  if (!known || (colon != text.npos && !hasWidth))
+    return report::badUsage(fmt::format(
+        "'{}' is not a window: write none, minimal, hann:WIDTH or lanczos:WIDTH", text));
+  if (colon == text.npos) return windowing;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, windowing.width);
+  if (error != std::errc() || rest != end || !std::isfinite(windowing.width) ||
+      windowing.width <= 0.0)
+    return report::badUsage(fmt::format("'{}': the width must be a number above 0", text));
+  return windowing;
+}
+
+void soften(const Windowing& windowing, sh::RgbCoefficients& light) {
+  const double width = windowing.width > 0.0 ? windowing.width : double(light.bands);
+  switch (windowing.kind) {
+    case Windowing::Kind::None:
+      return;
+    case Windowing::Kind::Hann:
+      return sh::applyWindow(sh::hann(light.bands, width), light);
+    case Windowing::Kind::Lanczos:
+      return sh::applyWindow(sh::lanczos(light.bands, width), light);
+    case Windowing::Kind::Minimal:
+      return sh::applyWindow(sh::minimalRinging(light), light);
+  }
+}
+
+}  // namespace lambent::light

@@ -1,0 +1,25 @@
+// The --window of the command line and of a viewer's state: how a light is softened against
+// ringing.
+#pragma once
+
+#include <string_view>
+
+#include "lambent/report/result.h"
+#include "lambent/sh/coefficients.h"
+
+namespace lambent::light {
+
+struct Windowing {
+  enum class Kind { None, Hann, Lanczos, Minimal };
+  Kind kind = Kind::None;
+  double width = 0.0;  ///< of Hann and Lanczos, in bands, > 0; 0: as many as the light has
+};
+
+/// none | minimal | hann | lanczos | hann:WIDTH | lanczos:WIDTH. BadUsage says how it is written.
+Result<Windowing> parseWindowing(std::string_view text);
+
+/// Multiplies every band of the light (see sh/window.h). A window is the same in every direction,
+/// so it does not matter whether a light is turned before or after.
+void soften(const Windowing& windowing, sh::RgbCoefficients& light);
+
+}  // namespace lambent::light
