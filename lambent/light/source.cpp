@@ -269,19 +269,26 @@ std::size_t endOfTerm(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+std::vector<std::string_view> sourceTerms(std::string_view text) {
+  std::vector<std::string_view> terms;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = endOfTerm(text, at);
+    terms.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return terms;
+}
+
 Result<Environment> parseSource(std::string_view text, Findings* findings) {
   if (text.empty()) return badUsage(fmt::format("the light is empty. {}", kForms));
   std::optional<Environment> sum;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = endOfTerm(text, at);
-    const std::string_view term = text.substr(at, end - at);
+  for (const std::string_view term : sourceTerms(text)) {
     if (term.empty())
       return badUsage(
           fmt::format("light '{}': nothing stands on one side of a '+'. {}", text, kForms));
     const Result<Environment> light = parseTerm(term, findings);
     if (!light) return light.error();
     sum = sum ? *sum + *light : *light;
-    at = end + 1;
   }
   return *sum;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lambent/light/environment.h"
 #include "lambent/report/finding.h"
@@ -22,6 +23,10 @@ namespace lambent::light {
 /// and said in `findings` ("light-pixels-repaired"); without a list to say it in, such a file is
 /// refused.
 Result<Environment> parseSource(std::string_view text, Findings* findings = nullptr);
+
+/// What a SOURCE is the sum of, in its sequence. A '+' in the name of a file that is there does not
+/// divide.
+std::vector<std::string_view> sourceTerms(std::string_view text);
 
 /// LIGHT.json: {"lambent": "light", "bands": n, "coefficients": [[r, g, b], …]}, one row for each
 /// coefficient in the sequence of sh::index, 1 … 10 bands. Other keys are passed over.

@@ -80,6 +80,14 @@ TEST_F(Source, SumsAddUp) {
                   Environment::disc(Vec3::UnitY(), kPi / 3, Rgb::Ones()));
 }
 
+TEST_F(Source, TermsOfASum) {
+  const std::string odd = writeImage("a+b.hdr", image::Image(4, 2));
+  EXPECT_EQ(sourceTerms("uniform"), std::vector<std::string_view>{"uniform"});
+  const std::string sum = "uniform:1e+3+" + odd + "+ball:" + odd;
+  const std::string ball = "ball:" + odd;
+  EXPECT_EQ(sourceTerms(sum), (std::vector<std::string_view>{"uniform:1e+3", odd, ball}));
+}
+
 TEST_F(Source, MistakesComeWithAnExample) {
   const ErrorKind usage = ErrorKind::BadUsage;
   expectError("", usage, {"empty", "uniform"});

@@ -1,0 +1,135 @@
+#include "apps/lambent/web_manifest.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "apps/lambent/arguments.h"
+#include "lambent/asset/asset.h"
+#include "lambent/file/atomic_file.h"
+#include "lambent/image/io.h"
+#include "lambent/image/maps.h"
+#include "lambent/light/source.h"
+
+namespace lambent::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<std::string> readText(const fs::path& path) {
+  const auto bytes = file::readWhole(path);
+  if (!bytes) return bytes.error();
+  return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+}
+
+/// Everything in the folder, by the path it has there.
+Status addPage(const fs::path& page, ServedFiles& files) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(page, error), end; at != end; at.increment(error)) {
+    if (at->is_regular_file(error))
+      files["/" + at->path().lexically_relative(page).generic_string()] = at->path();
+    if (error) break;
+  }
+  if (error) return badInput(fmt::format("{}: {}", page.string(), error.message()));
+  return Status::ok();
+}
+
+/// A map of another kind than latitude and longitude, as an .exr in that.
+Result<std::string> resampled(const std::string& term, int height) {
+  const auto environment = light::parseSource(term);
+  if (!environment) return environment.error();
+  image::Image map(2 * height, height);
+  const image::MapShape shape{image::MapKind::LatLong, map.width, map.height};
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x)
+      map.at(x, y) =
+          environment->radiance(image::directionOf(shape, {x + 0.5, y + 0.5})->cast<float>());
+  const fs::path path = fs::temp_directory_path() / fmt::format("lambent-{}.exr", getpid());
+  if (const Status status = image::write(map, path); !status) return status.error();
+  auto bytes = readText(path);
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  return bytes;
+}
+
+/// Adds the files behind one SOURCE, and says under which names.
+Result<Json> addEnvironment(const std::string& source, std::size_t number, ServedFiles& files) {
+  constexpr int kResampledHeight = 1024;
+  Json names = Json::object();
+  const auto terms = light::sourceTerms(source);
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const std::string term(terms[k]);
+    const auto startsWithAny = [&](std::initializer_list<std::string_view> prefixes) {
+      return std::any_of(prefixes.begin(), prefixes.end(),
+                         [&](std::string_view prefix) { return term.starts_with(prefix); });
+    };
+    if (startsWithAny({"uniform", "disc:", "directional:"})) continue;
+    const std::string stem = fmt::format("files/environment-{}-{}", number, k);
+    std::string name = stem + extensionOf(term);
+    if (startsWithAny({"cube:", "angular:", "ball:"})) {
+      name = stem + ".exr";
+      const auto bytes = resampled(term, kResampledHeight);
+      if (!bytes) return bytes.error();
+      files["/" + name] = *bytes;
+    } else {
+      files["/" + name] = fs::absolute(term);
+    }
+    names[term] = name;
+  }
+  const bool isFile = terms.size() == 1 && !names.empty();
+  return Json{{"name", isFile ? fs::path(source).filename().string() : source},
+              {"source", source},
+              {"files", names}};
+}
+
+void putFirst(Json& list, Json entries) {
+  for (Json& own : list) entries.push_back(std::move(own));
+  list = std::move(entries);
+}
+
+}  // namespace
+
+Result<ServedFiles> filesToServe(const fs::path& page, const fs::path& asset,
+                                 std::span<const std::string> environments, Console& console) {
+  ServedFiles files;
+  if (const Status status = addPage(page, files); !status) return status.error();
+  const auto own = readText(page / "manifest.json");
+  if (!own) return own.error();
+  Json manifest = Json::parse(*own, nullptr, false);
+  if (manifest.is_discarded() || !manifest.is_object() || !manifest["assets"].is_array() ||
+      !manifest["environments"].is_array())
+    return badInput(fmt::format("{}: not the page's list of files. Build the page again",
+                                (page / "manifest.json").string()));
+
+  if (!asset.empty()) {
+    const auto baked = asset::isAsset(asset);
+    if (!baked) return baked.error();
+    if (!*baked)
+      return badInput(fmt::format(
+          "{}: it has not been baked, so there is nothing to relight: lambent bake {} -o baked.glb",
+          asset.string(), asset.string()));
+    files["/files/asset.glb"] = fs::absolute(asset);
+    putFirst(manifest["assets"],
+             Json::array({{{"name", asset.filename().string()}, {"file", "files/asset.glb"}}}));
+  }
+  Json given = Json::array();
+  for (std::size_t k = 0; k < environments.size(); ++k) {
+    Findings findings;
+    const auto light =
+        console.stage("light", [&] { return light::parseSource(environments[k], &findings); });
+    console.report(findings);
+    if (!light) return light.error();
+    auto entry = addEnvironment(environments[k], k, files);
+    if (!entry) return entry.error();
+    given.push_back(std::move(*entry));
+  }
+  putFirst(manifest["environments"], std::move(given));
+  files["/manifest.json"] =
+      manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return files;
+}
+
+}  // namespace lambent::tool
