@@ -1,0 +1,200 @@
+// Exit radiance of a surface with meso-structure: B(q, v) · (M L), sloan2003biscale eq. 4, as
+// shaders/patch.frag.glsl and shade::LitPatch.
+//
+// Numbers of a position and view are coefficient after coefficient, each R, G, B, in groups of
+// four: RGBR GBRG BRGB … So three sums of every third group hold each channel in known places.
+//
+// Before this text stand: #define LAMBENT_FETCH; LAMBENT_COEFFICIENTS, LAMBENT_GROUPS;
+// LAMBENT_GATHER with a FETCH; LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the
+// light holds already); LAMBENT_RESPONSE, which reads all groups of a row and adds their products
+// with the light to sum0, sum1, sum2 (src/materials/incident-code.ts); LAMBENT_FILTER, LAMBENT_ID_MAP 0 or 1; row_place.glsl,
+// view_square.glsl, rtt_footprint.glsl, tangent_frame.glsl, shading_point.glsl.
+
+#include <common>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+
+in vec3 tangent_;
+
+#if LAMBENT_FETCH
+flat in uvec3 corners;
+in vec3 barycentric;
+uniform sampler2D incidentLit;
+uniform int incidentALine;
+vec4 incident[LAMBENT_GROUPS];
+
+ivec2 firstOf(uint p) {
+  int line = int(p) / incidentALine;
+  return ivec2((int(p) - line * incidentALine) * LAMBENT_COEFFICIENTS, line);
+}
+
+// The light at this place of its triangle.
+void interpolate() {
+  ivec2 a = firstOf(corners.x), b = firstOf(corners.y), c = firstOf(corners.z);
+#define lit(i) (barycentric.x * texelFetch(incidentLit, a + ivec2(i, 0), 0).rgb + \
+                barycentric.y * texelFetch(incidentLit, b + ivec2(i, 0), 0).rgb + \
+                barycentric.z * texelFetch(incidentLit, c + ivec2(i, 0), 0).rgb)
+  LAMBENT_GATHER
+}
+#else
+in vec4 incident[LAMBENT_GROUPS];
+#endif
+
+uniform highp usampler2DArray rtt;  // [level][y][x][view y][view x], a row for each
+uniform ivec3 rttRows;
+uniform int views;
+uniform bool viewDependent;
+uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of distance, and anyway
+uniform int levelCount;
+uniform ivec4 levels[16];  // width, height, first position
+#if LAMBENT_ID_MAP
+uniform highp usampler2D idMap;
+uniform vec2 periodsPerMetre;
+#else
+uniform vec2 tiles;  // q = tiles (u, −v)
+#endif
+
+#if LAMBENT_NUMBERS == 2
+const int kGroupsAFetch = 4;
+vec4 group(uvec4 words, int i) {
+  int word = int(words[i]);
+  return vec4(ivec4(word << 24, word << 16, word << 8, word) >> 24);
+}
+#elif LAMBENT_NUMBERS == 1
+const int kGroupsAFetch = 2;
+vec4 group(uvec4 words, int i) {
+  return vec4(unpackHalf2x16(words[2 * i]), unpackHalf2x16(words[2 * i + 1]));
+}
+#else
+const int kGroupsAFetch = 1;
+vec4 group(uvec4 words, int i) { return uintBitsToFloat(words); }
+#endif
+
+// The response of one position, seen from one view, to the light that arrives here.
+vec3 response(int row) {
+  ivec3 first = rowPlace(rttRows, row);
+  vec4 sum0 = vec4(0.0), sum1 = vec4(0.0), sum2 = vec4(0.0);
+  uvec4 words;
+  LAMBENT_RESPONSE
+  return vec3(sum0.x + sum0.w + sum1.z + sum2.y, sum0.y + sum1.x + sum1.w + sum2.z,
+              sum0.z + sum1.y + sum2.x + sum2.w);
+}
+
+// The views around the direction, as shade::viewsAround.
+ivec2 lowView, highView;
+vec2 highShare;
+
+void chooseViews(vec3 toViewer) {
+  vec2 at = squareFromHemisphere(vec3(toViewer.xy, max(0.0, toViewer.z))) * float(views) - 0.5;
+  at = clamp(at, 0.0, float(views - 1));
+  lowView = ivec2(at);
+  highView = min(lowView + 1, views - 1);
+  highShare = at - vec2(lowView);
+}
+
+// The response of one position to the light, between the views.
+vec3 seen(int first, int place) {
+  int begin = (first + place) * views * views;
+  vec3 sum = vec3(0.0);
+  for (int v = 0; v < 4; ++v) {
+    bool right = (v & 1) != 0, up = (v & 2) != 0;
+    float share = (right ? highShare.x : 1.0 - highShare.x) * (up ? highShare.y : 1.0 - highShare.y);
+    if (share == 0.0) continue;
+    ivec2 view = ivec2(right ? highView.x : lowView.x, up ? highView.y : lowView.y);
+    sum += share * response(begin + view.y * views + view.x);
+  }
+  return sum;
+}
+
+vec3 nearest(vec2 q) {
+  ivec4 level = levels[0];
+  ivec2 at = min(ivec2(q * vec2(level.xy)), level.xy - 1);
+  return seen(level.z, at.y * level.x + at.x);
+}
+
+#if LAMBENT_FILTER
+// As shade::respond.
+vec3 filtered(vec2 q, Probes probes) {
+  float depth = min(probes.level, float(levelCount - 1));
+  int finer = int(depth), coarser = min(finer + 1, levelCount - 1);
+  float mixed = depth - float(finer);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < probes.count; ++i) {
+    vec2 at = fract(q + (float(i) - 0.5 * float(probes.count - 1)) * probes.stride);
+    for (int which = 0; which < 2; ++which) {
+      float share = which == 0 ? 1.0 - mixed : mixed;
+      if (share == 0.0) continue;
+      int k = which == 0 ? finer : coarser;
+      ivec4 level = levels[k];
+      // Level 0 at the nearest position: the one whose cell the place lies in.
+      vec2 cell = at * vec2(level.xy) - (k == 0 ? 0.0 : 0.5);
+      vec2 low = floor(cell), high = k == 0 ? vec2(0.0) : cell - low;
+      for (int corner = 0; corner < 4; ++corner) {
+        ivec2 right = ivec2(corner & 1, corner >> 1);
+        vec2 part = mix(1.0 - high, high, bvec2(right));
+        if (part.x * part.y == 0.0) continue;
+        ivec2 place = (ivec2(low) + right + level.xy) % level.xy;
+        sum += share * part.x * part.y * seen(level.z, place.y * level.x + place.x);
+      }
+    }
+  }
+  return sum / float(probes.count);
+}
+#endif
+
+vec2 patchPlace(vec2 uv) {
+#if LAMBENT_ID_MAP
+  ivec2 size = textureSize(idMap, 0);
+  ivec2 texel = ivec2(clamp(floor(uv * vec2(size)), vec2(0.0), vec2(size - 1)));
+  return vec2(texelFetch(idMap, texel, 0).rg) / 65536.0;
+#else
+  return fract(tiles * vec2(uv.x, -uv.y));
+#endif
+}
+
+void main() {
+#include <clipping_planes_fragment>
+#include <logdepthbuf_fragment>
+  ShadingPoint point = shadingPoint();
+#if LAMBENT_FILTER && !LAMBENT_ID_MAP
+  // The gradient of q along the triangle: q and the position are linear over it, so differences
+  // between neighbouring pixels give it exactly. Of the two metres of a pixel's parallelogram, the
+  // combination that has the differences' products.
+  vec3 px = dFdx(point.position), py = dFdy(point.position);
+  vec2 qx = tiles * dFdx(vec2(point.uv.x, -point.uv.y)), qy = tiles * dFdy(vec2(point.uv.x, -point.uv.y));
+  float xx = dot(px, px), xy = dot(px, py), yy = dot(py, py);
+  float area = xx * yy - xy * xy;
+  vec3 alongX = area > 0.0 ? (yy * px - xy * py) / area : vec3(0.0);
+  vec3 alongY = area > 0.0 ? (xx * py - xy * px) / area : vec3(0.0);
+  vec3 gradientX = qx.x * alongX + qy.x * alongY, gradientY = qx.y * alongX + qy.y * alongY;
+#endif
+  gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0);
+  if (gl_FrontFacing) {
+#if LAMBENT_FETCH
+    interpolate();
+#endif
+    mat3 frame = assetFromPatch(point.normal, tangent_);
+    vec3 toViewer = point.toViewer * frame;
+    chooseViews(viewDependent ? toViewer : vec3(0.0, 0.0, 1.0));
+    vec2 q = patchPlace(point.uv);
+#if LAMBENT_FILTER
+    vec3 longer, shorter;
+    footprintAxes(frame, toViewer, pixelWidth.x * point.distance + pixelWidth.y, longer, shorter);
+#if LAMBENT_ID_MAP
+    vec3 gradientX = frame[0] * periodsPerMetre.x, gradientY = frame[1] * periodsPerMetre.y;
+#endif
+    Probes probes = probesOf(vec2(dot(gradientX, longer), dot(gradientY, longer)),
+                             vec2(dot(gradientX, shorter), dot(gradientY, shorter)),
+                             vec2(levels[0].xy));
+    // What filtered() would give, without its loops.
+    if (probes.level == 0.0 && probes.count == 1)
+      gl_FragColor.rgb = nearest(q);
+    else
+      gl_FragColor.rgb = filtered(q, probes);
+#else
+    gl_FragColor.rgb = nearest(q);
+#endif
+  }
+#include <tonemapping_fragment>
+#include <colorspace_fragment>
+}

@@ -1,0 +1,36 @@
+// The point of a surface that is shaded, from what the rasteriser interpolates; in the asset's frame.
+
+in vec4 positionU;
+in vec4 normalV;
+in vec3 vertexColor;
+
+uniform vec4 eye;  // position, 1; or, for an orthographic camera, direction to the viewer, 0
+
+struct ShadingPoint {
+  vec3 position;
+  vec2 uv;
+  vec3 normal;    // unit
+  vec3 toViewer;  // unit
+  float distance;
+};
+
+// To be called where all fragments of a quad come along: it takes derivatives.
+ShadingPoint shadingPoint() {
+  ShadingPoint point;
+  point.position = positionU.xyz;
+  point.uv = vec2(positionU.w, normalV.w);
+  vec3 away = eye.xyz - point.position;
+  point.distance = length(away);
+  point.toViewer = eye.w > 0.0 ? away / point.distance : eye.xyz;
+  // The triangle's own normal, on the side that is seen.
+  vec3 front = cross(dFdx(point.position), dFdy(point.position));
+  float size = length(front);
+  front = size > 0.0 ? front / size : point.toViewer;
+  if (dot(front, point.toViewer) < 0.0) front = -front;
+  vec3 normal = normalV.xyz;
+  normal = dot(normal, normal) > 1e-30 ? normalize(normal) : front;
+  float side = dot(normal, front);
+  if (side < 0.0) normal = normalize(normal - 2.0 * side * front);  // as scene::surfaceAt
+  point.normal = normal;
+  return point;
+}

@@ -1,0 +1,75 @@
+// A relit surface. Vertices fetch what the transfer pass made for them by their number.
+//
+// Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
+// LAMBENT_UV, LAMBENT_COLOR,
+// LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
+// corners, and vertices know their triangle); with glossy or patch LAMBENT_GROUPS and
+// LAMBENT_GATHER, which writes incident[] from the texels `lit(0)`, `lit(1)` ….
+
+#include <common>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+
+#if LAMBENT_PATCH
+attribute vec3 lambentTangent;
+out vec3 tangent_;
+#endif
+#if LAMBENT_FETCH
+attribute uvec3 lambentCorners;
+flat out uvec3 corners;
+out vec3 barycentric;
+#endif
+
+out vec4 positionU;
+out vec4 normalV;
+out vec3 vertexColor;
+#if LAMBENT_VERTICES && LAMBENT_DIFFUSE
+uniform sampler2D diffuseLit;
+uniform int diffuseALine;
+out vec3 diffuseRadiance;
+#endif
+#if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
+uniform sampler2D incidentLit;
+uniform int incidentALine;
+out vec4 incident[LAMBENT_GROUPS];
+#endif
+
+void main() {
+#if LAMBENT_UV
+  vec2 place = uv;
+#else
+  vec2 place = vec2(0.0);
+#endif
+  positionU = vec4(position, place.x);
+  normalV = vec4(normal, place.y);
+#if LAMBENT_COLOR
+  vertexColor = color.rgb;
+#else
+  vertexColor = vec3(1.0);
+#endif
+#if LAMBENT_PATCH
+  tangent_ = lambentTangent;
+#endif
+  int receiver = gl_VertexID;
+#if LAMBENT_FETCH
+  int corner = gl_VertexID % 3;
+  corners = lambentCorners;
+  barycentric = vec3(corner == 0, corner == 1, corner == 2);
+  receiver = int(lambentCorners[corner]);
+#endif
+#if LAMBENT_VERTICES && LAMBENT_DIFFUSE
+  int line = receiver / diffuseALine;
+  diffuseRadiance = texelFetch(diffuseLit, ivec2(receiver - line * diffuseALine, line), 0).rgb;
+#endif
+#if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
+  int incidentLine = receiver / incidentALine;
+  ivec2 first =
+      ivec2((receiver - incidentLine * incidentALine) * LAMBENT_COEFFICIENTS, incidentLine);
+#define lit(i) texelFetch(incidentLit, first + ivec2(i, 0), 0).rgb
+  LAMBENT_GATHER
+#endif
+  vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * mvPosition;
+#include <logdepthbuf_vertex>
+#include <clipping_planes_vertex>
+}

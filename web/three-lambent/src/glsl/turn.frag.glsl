@@ -1,0 +1,41 @@
+// Light turned into the tangent frames of vertices, where nothing hides it: what is left of M L of
+// sloan2003biscale without shadows. A band of 2l + 1 coefficients is known from its values in as
+// many directions: those are looked up where the frame carries them, and what turns values into
+// coefficients is the same for all frames (src/gpu/turn-samples.ts).
+//
+// Before this text stand: #define LAMBENT_ROWS, of the result; sh.glsl with LAMBENT_BANDS, of the
+// light; row_place.glsl; tangent_frame.glsl.
+
+uniform sampler2DArray normals;
+uniform sampler2DArray tangents;
+uniform ivec3 frameRows;
+uniform sampler2D solve;  // (k, i): the share of value k in coefficient i
+uniform vec3 directions[2 * LAMBENT_BANDS - 1];
+uniform vec3 light[kCoefficients];
+uniform vec4 factors[(LAMBENT_ROWS + 3) / 4];
+uniform int receivers;
+uniform int receiversALine;
+
+out vec4 lit;
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int column = at.x / LAMBENT_ROWS;
+  int i = at.x - column * LAMBENT_ROWS;
+  int p = at.y * receiversALine + column;
+  lit = vec4(0.0, 0.0, 0.0, 1.0);
+  if (p >= receivers || i >= kCoefficients) return;
+  ivec3 place = rowPlace(frameRows, p);
+  mat3 frame = assetFromPatch(normalize(texelFetch(normals, place, 0).xyz),
+                              texelFetch(tangents, place, 0).xyz);
+  int l = 0;
+  while ((l + 1) * (l + 1) <= i) ++l;
+  for (int k = 0; k < 2 * l + 1; ++k) {
+    float y[kCoefficients];
+    harmonics(frame * directions[k], y);
+    vec3 value = vec3(0.0);
+    for (int m = l * l; m < (l + 1) * (l + 1); ++m) value += light[m] * y[m];
+    lit.rgb += texelFetch(solve, ivec2(k, i), 0).x * value;
+  }
+  lit.rgb *= factors[i >> 2][i & 3];
+}

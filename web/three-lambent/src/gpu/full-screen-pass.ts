@@ -1,0 +1,51 @@
+// Draws one triangle over a whole render target, and leaves the renderer as it was.
+
+import {
+  BufferGeometry,
+  Camera,
+  Float32BufferAttribute,
+  Mesh,
+  Scene,
+  type Material,
+  type WebGLRenderer,
+  type WebGLRenderTarget,
+} from "three";
+
+export class FullScreenPass {
+  private readonly geometry = new BufferGeometry();
+  private readonly scene = new Scene();
+  private readonly camera = new Camera();
+  private readonly mesh = new Mesh(this.geometry);
+
+  constructor() {
+    this.geometry.setAttribute("position", new Float32BufferAttribute([-1, -1, 3, -1, -1, 3], 2));
+    this.mesh.frustumCulled = false;
+    this.scene.add(this.mesh);
+    this.scene.matrixWorldAutoUpdate = false;
+  }
+
+  render(renderer: WebGLRenderer, material: Material, target: WebGLRenderTarget | null): void {
+    const before = {
+      target: renderer.getRenderTarget(),
+      face: renderer.getActiveCubeFace(),
+      level: renderer.getActiveMipmapLevel(),
+      autoClear: renderer.autoClear,
+      xr: renderer.xr.enabled,
+      shadows: renderer.shadowMap.autoUpdate,
+    };
+    renderer.autoClear = false;
+    renderer.xr.enabled = false;
+    renderer.shadowMap.autoUpdate = false;
+    this.mesh.material = material;
+    renderer.setRenderTarget(target);
+    renderer.render(this.scene, this.camera);
+    renderer.setRenderTarget(before.target, before.face, before.level);
+    renderer.autoClear = before.autoClear;
+    renderer.xr.enabled = before.xr;
+    renderer.shadowMap.autoUpdate = before.shadows;
+  }
+
+  dispose(): void {
+    this.geometry.dispose();
+  }
+}

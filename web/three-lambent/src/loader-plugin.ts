@@ -1,0 +1,104 @@
+// LAMBENT_radiance_transfer for three's GLTFLoader.
+
+import type { BufferAttribute, Mesh, Object3D } from "three";
+import type { GLTF, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
+import { LambentAsset, type MeshEntry } from "./asset/asset.js";
+import { reflectanceOf } from "./asset/reflectance.js";
+import type { IncidentMode } from "./asset/relit-mesh.js";
+import { kExtensionName, LambentFormatError, type AssetDescription } from "./format/description.js";
+import { hasTransfer, readTransfer } from "./format/read.js";
+
+export interface LambentLoaderOptions {
+  /**
+   * How incident light of glossy surfaces and meso-structure comes to the pixels: "varyings" (by the
+   * rasteriser, fast), "fetch" (by the fragment shader at the triangle's corners, which needs three
+   * vertices for each triangle), "auto": varyings, if the device has enough. Default "auto".
+   */
+  incident?: IncidentMode;
+}
+
+/**
+ * `loader.register((parser) => new LambentLoaderPlugin(parser))`.
+ *
+ * Files without the extension load as ever. With it, materials of all meshes are replaced, and the
+ * {@link LambentAsset} stands at `gltf.userData.lambent`. A file that is damaged, or of another major
+ * version of the format, is an error of the load that says what is wrong and where.
+ */
+export class LambentLoaderPlugin {
+  readonly name = kExtensionName;
+  private description: AssetDescription | null = null;
+
+  constructor(
+    private readonly parser: GLTFParser,
+    private readonly options: LambentLoaderOptions = {},
+  ) {}
+
+  /** Reads and checks all transfer, before anything else is made of the file. */
+  beforeRoot(): Promise<void> | null {
+    const { parser } = this;
+    if (!hasTransfer(parser.json)) return null;
+    const source = {
+      json: parser.json as Record<string, unknown>,
+      buffer: (index: number) => parser.getDependency("buffer", index) as Promise<ArrayBuffer>,
+      bufferView: (index: number) =>
+        parser.getDependency("bufferView", index) as Promise<ArrayBuffer>,
+    };
+    return readTransfer(source).then((description) => {
+      this.description = description;
+    });
+  }
+
+  /** Hands the meshes over to a LambentAsset. */
+  afterRoot(gltf: GLTF): Promise<void> | null {
+    const { description, parser } = this;
+    if (!description) return null;
+    const json = parser.json as {
+      materials?: unknown[];
+      meshes?: { primitives: { material?: number }[] }[];
+    };
+    const entries: MeshEntry[] = [];
+    gltf.scene.traverse((object: Object3D) => {
+      const place = parser.associations.get(object);
+      const mesh = object as Mesh;
+      if (!mesh.isMesh || place?.meshes === undefined) return;
+      const primitive = place.primitives ?? 0;
+      const key = `${place.meshes}/${primitive}`;
+      checkGeometry(mesh, key);
+      const material = json.meshes?.[place.meshes]?.primitives[primitive]?.material;
+      const colored = mesh.geometry.hasAttribute("color");
+      const reflectance = reflectanceOf(json.materials?.[material ?? -1], colored);
+      entries.push({ mesh, key, reflectance });
+    });
+    // What no scene shows, nobody can relight.
+    gltf.userData ??= {};
+    gltf.userData.lambent = new LambentAsset(
+      gltf.scene,
+      description,
+      entries,
+      this.options.incident ?? "auto",
+    );
+    return null;
+  }
+}
+
+/** What GLTFLoader takes on trust. */
+function checkGeometry({ geometry }: Mesh, key: string): void {
+  const [mesh, primitive] = key.split("/");
+  const place = `meshes[${mesh}].primitives[${primitive}]`;
+  const position = geometry.getAttribute("position");
+  const { index } = geometry;
+  if (index)
+    for (let i = 0; i < index.count; ++i)
+      if (index.getX(i) >= position.count)
+        throw new LambentFormatError(
+          `${place}.indices: ${index.getX(i)} is no vertex: there are ${position.count}`,
+        );
+  const values = (position as BufferAttribute).array;
+  for (let i = 0; i < values.length; ++i)
+    if (!Number.isFinite(values[i]))
+      throw new LambentFormatError(`${place}.attributes.POSITION: a number is not finite`);
+  if (!geometry.hasAttribute("normal")) geometry.computeVertexNormals();
+  for (const name of ["normal", "uv", "color"])
+    if (geometry.hasAttribute(name) && geometry.getAttribute(name).count !== position.count)
+      throw new LambentFormatError(`${place}.attributes: not as many ${name}s as positions`);
+}

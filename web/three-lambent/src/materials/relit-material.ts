@@ -1,0 +1,204 @@
+// The materials of relit surfaces. They write linear radiance; drawn onto the canvas, three's own
+// tone mapping and colour space follow, as for its own materials.
+
+import {
+  ClampToEdgeWrapping,
+  DoubleSide,
+  Matrix3,
+  Matrix4,
+  MirroredRepeatWrapping,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  Vector4,
+  type Camera,
+  type IUniform,
+  type Object3D,
+  type Texture,
+  type WebGLRenderer,
+} from "three";
+import {
+  baseColor,
+  environment as environmentGlsl,
+  patchFrag,
+  rowPlace,
+  rttFootprint,
+  sh,
+  shadingPoint,
+  surfaceFrag,
+  surfaceVert,
+  tangentFrame,
+  viewSquare,
+} from "../generated/shaders.js";
+import { gatherCode, incidentGroups, lobeCode, responseCode } from "./incident-code.js";
+
+/** LAMBENT_KIND of surface.frag.glsl. */
+export const kSurfaceKind = { vertices: 0, texels: 1, mirror: 2, black: 3, unlit: 4 } as const;
+
+/** What of a surface decides about its shaders. */
+export interface SurfaceShape {
+  kind: keyof typeof kSurfaceKind;
+  diffuse?: boolean;
+  albedoOutside?: boolean;
+  /** Bands of the lobe; 0: not glossy. */
+  lobeBands?: number;
+  /** The fragment shader fetches the light at the triangle's corners. */
+  fetch?: boolean;
+  map: Texture | null;
+  colored: boolean;
+  uv: boolean;
+}
+
+/** What of meso-structure decides about its shaders. */
+export interface PatchShape {
+  bands: number;
+  /** LAMBENT_NUMBERS of patch.frag.glsl, and groups of numbers in 16 bytes. */
+  numbers: 0 | 1 | 2;
+  groupsAFetch: number;
+  fetch: boolean;
+  filter: boolean;
+  idMap: boolean;
+}
+
+const kFootprintDefines = "#define LAMBENT_MOST_PROBES 4\n#define LAMBENT_LEAST_COSINE (1.0 / 64.0)\n";
+
+const flag = (value: unknown) => (value ? 1 : 0);
+
+function defines(values: Record<string, string | number>): string {
+  return Object.entries(values)
+    .map(([name, value]) => `#define LAMBENT_${name} ${value}\n`)
+    .join("");
+}
+
+const inverse = new Matrix4();
+const vector = new Vector4();
+
+export class RelitMaterial extends ShaderMaterial {
+  override readonly type: string = "LambentRelitMaterial";
+  /** Sub-samples of a pixel that the caller adds up: what is filtered is as much narrower. */
+  samples = 1;
+
+  constructor(vertex: string, fragment: string, uniforms: Record<string, IUniform>) {
+    super({
+      vertexShader: vertex,
+      fragmentShader: fragment,
+      uniforms: {
+        eye: { value: new Vector4() },
+        pixelWidth: { value: new Vector2() },
+        worldFromAsset: { value: new Matrix3() },
+        ...uniforms,
+      },
+      side: DoubleSide, // what is seen from behind is black, and hides what lies behind it
+      clipping: true,
+    });
+  }
+
+  /** For a mesh's onBeforeRender: the eye, and how wide a pixel is, in the asset's frame. */
+  look(renderer: WebGLRenderer, camera: Camera, object: Object3D): void {
+    const { eye, pixelWidth, worldFromAsset } = this.uniforms;
+    inverse.copy(object.matrixWorld).invert();
+    const height = renderer.getCurrentViewport(vector).w;
+    // Half the picture's height: at distance 1, or of an orthographic camera at any.
+    const half = 1 / Math.abs(camera.projectionMatrix.elements[5]);
+    const width = (2 * half) / (height * Math.sqrt(this.samples));
+    const orthographic = camera.projectionMatrix.elements[15] === 1;
+    const c = camera.matrixWorld.elements;
+    if (orthographic) {
+      const scale = inverse.getMaxScaleOnAxis();
+      eye.value.set(c[8], c[9], c[10], 0).applyMatrix4(inverse).normalize();
+      pixelWidth.value.set(0, width * scale);
+    } else {
+      eye.value.set(c[12], c[13], c[14], 1).applyMatrix4(inverse);
+      pixelWidth.value.set(width, 0);
+    }
+    worldFromAsset.value.setFromMatrix4(object.matrixWorld);
+    const scale = object.matrixWorld.getMaxScaleOnAxis();
+    if (scale > 0) worldFromAsset.value.multiplyScalar(1 / scale);
+    this.uniformsNeedUpdate = true;
+  }
+}
+
+function wrapRule(wrapping: number): number {
+  return wrapping === ClampToEdgeWrapping ? 1 : wrapping === MirroredRepeatWrapping ? 2 : 0;
+}
+
+/** A surface without meso-structure. Uniforms of its results are the caller's to set. */
+export function makeSurfaceMaterial(
+  shape: SurfaceShape,
+  uniforms: Record<string, IUniform>,
+): RelitMaterial {
+  const coefficients = (shape.lobeBands ?? 0) ** 2;
+  const vertices = shape.kind === "vertices";
+  const map = shape.uv ? shape.map : null;
+  const glossy = coefficients > 0 && (vertices || shape.kind === "texels");
+  const fetch = shape.fetch && glossy && vertices;
+  const common = defines({
+    KIND: kSurfaceKind[shape.kind],
+    VERTICES: flag(vertices),
+    DIFFUSE: flag(shape.diffuse && (vertices || shape.kind === "texels")),
+    GLOSSY: flag(glossy),
+    PATCH: 0,
+    FETCH: flag(fetch),
+    MAP: flag(map),
+    UV: flag(shape.uv),
+    COLOR: flag(shape.colored),
+    ALBEDO_OUTSIDE: flag(shape.albedoOutside),
+    COEFFICIENTS: coefficients,
+    GROUPS: incidentGroups(coefficients),
+    GATHER: gatherCode(coefficients),
+    LOBE: lobeCode(coefficients),
+  });
+  const parts = [
+    common,
+    glossy ? `#define LAMBENT_BANDS ${shape.lobeBands}\n${sh}` : "",
+    shadingPoint,
+    map ? baseColor : "",
+    shape.kind === "mirror" ? `uniform mat3 worldFromAsset;\n${environmentGlsl}` : "",
+    surfaceFrag,
+  ];
+  const material = new RelitMaterial(common + surfaceVert, parts.join("\n"), {
+    reflectance: { value: new Vector3(1, 1, 1) },
+    ...(map && {
+      baseColorMap: { value: map },
+      baseColorWrap: { value: Int32Array.of(wrapRule(map.wrapS), wrapRule(map.wrapT)) },
+    }),
+    ...uniforms,
+  });
+  material.vertexColors = shape.colored;
+  return material;
+}
+
+/** A surface with meso-structure. */
+export function makePatchMaterial(
+  shape: PatchShape,
+  uniforms: Record<string, IUniform>,
+): RelitMaterial {
+  const coefficients = shape.bands ** 2;
+  const common = defines({
+    VERTICES: 1,
+    DIFFUSE: 0,
+    GLOSSY: 0,
+    PATCH: 1,
+    FETCH: flag(shape.fetch),
+    UV: 1,
+    COLOR: 0,
+    COEFFICIENTS: coefficients,
+    GROUPS: incidentGroups(coefficients),
+    GATHER: gatherCode(coefficients),
+    NUMBERS: shape.numbers,
+    FILTER: flag(shape.filter),
+    ID_MAP: flag(shape.idMap),
+    RESPONSE: responseCode(coefficients, shape.groupsAFetch),
+  });
+  const parts = [
+    common,
+    kFootprintDefines,
+    rowPlace,
+    viewSquare,
+    rttFootprint,
+    tangentFrame,
+    shadingPoint,
+    patchFrag,
+  ];
+  return new RelitMaterial(common + surfaceVert, parts.join("\n"), uniforms);
+}

@@ -1,0 +1,52 @@
+// The environment behind an asset.
+
+import { BufferGeometry, Float32BufferAttribute, Matrix4, Mesh, ShaderMaterial, Vector4 } from "three";
+import { backgroundFrag, backgroundVert, environment as environmentGlsl } from "../generated/shaders.js";
+import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
+
+/**
+ * Shows an environment behind everything, looked up as mirrors look it up (three's own background
+ * filters it otherwise, and knows no discs). Add it to the scene.
+ */
+export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> {
+  private readonly shown = new EnvironmentUniforms();
+
+  constructor(environment: Environment | null = null) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
+    super(geometry);
+    this.material = new ShaderMaterial({
+      vertexShader: backgroundVert,
+      fragmentShader: `${environmentGlsl}${backgroundFrag}`,
+      uniforms: {
+        worldFromClip: { value: new Matrix4() },
+        eye: { value: new Vector4() },
+        ...this.shown.uniforms,
+      },
+      depthWrite: false,
+    });
+    this.frustumCulled = false;
+    this.renderOrder = 1; // behind what is there: pixels that are covered cost nothing
+    this.raycast = () => {};
+    this.onBeforeRender = (_renderer, _scene, camera) => {
+      const { worldFromClip, eye } = this.material.uniforms;
+      worldFromClip.value.copy(camera.matrixWorld).multiply(camera.projectionMatrixInverse);
+      const c = camera.matrixWorld.elements;
+      if (camera.projectionMatrix.elements[15] === 1) eye.value.set(c[8], c[9], c[10], 0);
+      else eye.value.set(c[12], c[13], c[14], 1);
+      this.material.uniformsNeedUpdate = true;
+    };
+    this.setEnvironment(environment);
+  }
+
+  setEnvironment(environment: Environment | null): void {
+    this.shown.set(environment);
+  }
+
+  override dispose(): void {
+    this.removeFromParent();
+    this.geometry.dispose();
+    this.material.dispose();
+    this.shown.dispose();
+  }
+}
