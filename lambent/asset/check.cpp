@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lambent/asset/names.h"
 #include "lambent/asset/rtt_file.h"
 #include "lambent/sh/coefficients.h"
 
@@ -28,44 +29,67 @@ std::string text(std::uint64_t value) {
   return std::to_string(value);
 }
 
-std::optional<std::string> faultOfVectors(const EncodedMesh& t) {
+/// `name` is for messages: what is kept beside has the same shape, but for its channels.
+std::optional<std::string> faultOfVectors(const EncodedMesh& t, const std::string& name,
+                                          const Numbers& vectors, int channels) {
   if (!bandsInRange(t.bands))
-    return "vectors: bands is " + std::to_string(t.bands) + ", not 1 to 10";
-  if (!channelsInRange(t.channels))
-    return "vectors: channels is " + std::to_string(t.channels) + ", not 1 or 3";
+    return name + ": bands is " + std::to_string(t.bands) + ", not 1 to 10";
+  if (!channelsInRange(channels))
+    return name + ": channels is " + std::to_string(channels) + ", not 1 or 3";
   const std::uint64_t coefficients = squared(t.bands);
-  const std::uint64_t each = std::uint64_t(t.channels) * coefficients;
-  if (t.vectors.size() != t.receiverCount() * each)
-    return "vectors: " + text(t.vectors.size()) + " numbers where " + text(t.receiverCount()) +
-           " receivers × " + text(std::uint64_t(t.channels)) + " channels × " + text(coefficients) +
+  const std::uint64_t each = std::uint64_t(channels) * coefficients;
+  if (vectors.size() != t.receiverCount() * each)
+    return name + ": " + text(vectors.size()) + " numbers where " + text(t.receiverCount()) +
+           " receivers × " + text(std::uint64_t(channels)) + " channels × " + text(coefficients) +
            " coefficients need " + text(t.receiverCount() * each);
-  if (const auto at = firstNonFinite(t.vectors))
-    return "vectors: not a finite number at receiver " + text(*at / each) + ", channel " +
+  if (const auto at = firstNonFinite(vectors))
+    return name + ": not a finite number at receiver " + text(*at / each) + ", channel " +
            text(*at % each / coefficients) + ", coefficient " + text(*at % coefficients);
   return std::nullopt;
 }
 
-std::optional<std::string> faultOfMatrices(const EncodedMesh& t) {
+std::optional<std::string> faultOfMatrices(const EncodedMesh& t, const std::string& name,
+                                           const Numbers& matrices, int channels) {
   if (!bandsInRange(t.outBands) || !bandsInRange(t.inBands))
-    return "matrices: outBands is " + std::to_string(t.outBands) + " and inBands " +
+    return name + ": outBands is " + std::to_string(t.outBands) + " and inBands " +
            std::to_string(t.inBands) + ", not 1 to 10";
-  if (!channelsInRange(t.matrixChannels))
-    return "matrices: channels is " + std::to_string(t.matrixChannels) + ", not 1 or 3";
+  if (!channelsInRange(channels))
+    return name + ": channels is " + std::to_string(channels) + ", not 1 or 3";
   const std::uint64_t rows = squared(t.outBands), columns = squared(t.inBands);
-  const std::uint64_t each = std::uint64_t(t.matrixChannels) * rows * columns;
-  if (t.matrices.size() != t.receiverCount() * each)
-    return "matrices: " + text(t.matrices.size()) + " numbers where " + text(t.receiverCount()) +
-           " receivers × " + text(std::uint64_t(t.matrixChannels)) + " channels × " + text(rows) +
+  const std::uint64_t each = std::uint64_t(channels) * rows * columns;
+  if (matrices.size() != t.receiverCount() * each)
+    return name + ": " + text(matrices.size()) + " numbers where " + text(t.receiverCount()) +
+           " receivers × " + text(std::uint64_t(channels)) + " channels × " + text(rows) +
            " rows × " + text(columns) + " columns need " + text(t.receiverCount() * each);
-  if (const auto at = firstNonFinite(t.matrices))
-    return "matrices: not a finite number at receiver " + text(*at / each) + ", channel " +
+  if (const auto at = firstNonFinite(matrices))
+    return name + ": not a finite number at receiver " + text(*at / each) + ", channel " +
            text(*at % each / (rows * columns)) + ", row " + text(*at / columns % rows) +
            ", column " + text(*at % columns);
+  return std::nullopt;
+}
+
+std::optional<std::string> faultOfLobe(const EncodedMesh& t) {
   if (!t.glossy.isFinite().all() || (t.glossy < 0.0f).any())
     return "matrices: glossy must be three finite numbers, none below 0";
   if (!std::isfinite(t.lobeExponent) || t.lobeExponent < 0.0f)
     return "matrices: lobeExponent must be finite and not below 0";
   return std::nullopt;
+}
+
+/// What is kept beside is whole: a reader that switches to it must not mix it with the other.
+std::optional<std::string> faultOfShadowed(const EncodedMesh& t,
+                                           const encode::EncodedField& field) {
+  if (field.kind != transport::TransferKind::Interreflected)
+    return "shadowed: kept beside interreflected transfer alone, and this asset's is " +
+           std::string(nameOf(field.kind));
+  if (t.vectors.empty() != t.shadowed.vectors.empty() ||
+      t.matrices.empty() != t.shadowed.matrices.empty())
+    return std::string("shadowed: must hold vectors and matrices where the primitive does");
+  if (!t.vectors.empty())
+    if (auto fault = faultOfVectors(t, "shadowed.vectors", t.shadowed.vectors, t.shadowed.channels))
+      return fault;
+  if (t.matrices.empty()) return std::nullopt;
+  return faultOfMatrices(t, "shadowed.matrices", t.shadowed.matrices, t.shadowed.matrixChannels);
 }
 
 std::optional<std::string> faultOfGrid(const EncodedMesh& t, const scene::Mesh& mesh) {
@@ -113,7 +137,7 @@ std::optional<std::string> faultOfBiScale(const EncodedMesh& t, const scene::Mes
                                           const encode::EncodedField& field) {
   const encode::EncodedBiScale& b = *t.biScale;
   if (t.layout != Layout::Vertices) return std::string("biScale: receivers must be vertices");
-  if (!t.vectors.empty() || !t.matrices.empty())
+  if (!t.vectors.empty() || !t.matrices.empty() || !t.shadowed.empty())
     return std::string("biScale: a bi-scale mesh has no vectors or matrices beside it");
   if (b.rtt < 0 || std::size_t(b.rtt) >= field.rtts.size())
     return "biScale: rtt is " + std::to_string(b.rtt) + ", and the asset has " +
@@ -192,7 +216,8 @@ std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mes
                                    const encode::EncodedField& field) {
   switch (transfer.layout) {
     case Layout::None:
-      if (!transfer.vectors.empty() || !transfer.matrices.empty() || transfer.biScale)
+      if (!transfer.vectors.empty() || !transfer.matrices.empty() || !transfer.shadowed.empty() ||
+          transfer.biScale)
         return std::string("transfer without receivers");
       return std::nullopt;
     case Layout::Vertices:
@@ -203,9 +228,16 @@ std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mes
       break;
   }
   if (!transfer.vectors.empty())
-    if (auto fault = faultOfVectors(transfer)) return fault;
-  if (!transfer.matrices.empty())
-    if (auto fault = faultOfMatrices(transfer)) return fault;
+    if (auto fault = faultOfVectors(transfer, "vectors", transfer.vectors, transfer.channels))
+      return fault;
+  if (!transfer.matrices.empty()) {
+    if (auto fault =
+            faultOfMatrices(transfer, "matrices", transfer.matrices, transfer.matrixChannels))
+      return fault;
+    if (auto fault = faultOfLobe(transfer)) return fault;
+  }
+  if (!transfer.shadowed.empty())
+    if (auto fault = faultOfShadowed(transfer, field)) return fault;
   if (transfer.biScale)
     if (auto fault = faultOfBiScale(transfer, mesh, field)) return fault;
   const int needed = std::max({transfer.vectors.empty() ? 0 : transfer.bands,

@@ -78,8 +78,8 @@ TEST_F(AssetHostile, OrdinaryGltfIsSentToTheBake) {
 }
 
 TEST_F(AssetHostile, Versions) {
-  expectRefused("version: 2.0 is newer than 1.1", [](json& d) { root(d)["version"] = "2.0"; });
-  expectRefused("version: 0.9 is older than 1.1", [](json& d) { root(d)["version"] = "0.9"; });
+  expectRefused("version: 2.0 is newer than 1.2", [](json& d) { root(d)["version"] = "2.0"; });
+  expectRefused("version: 0.9 is older than 1.2", [](json& d) { root(d)["version"] = "0.9"; });
   for (const char* odd : {"", "1", "1.", ".5", "1.x", "one", "1.0.0", "-1.0"})
     expectRefused("is not of the form", [&](json& d) { root(d)["version"] = odd; });
   expectRefused("version: is not a string", [](json& d) { root(d)["version"] = 1; });
@@ -332,6 +332,66 @@ TEST_F(BiScaleHostile, Rtts) {
   expectRefused("size: is not an array of 2", [&](json& d) { rtt(d)["size"] = {1}; });
   expectRefused("values.scales: is missing", [&](json& d) { rtt(d)["values"].erase("scales"); });
   expectRefused("encoding: is none of", [&](json& d) { rtt(d)["values"]["encoding"] = "int4"; });
+}
+
+class KeptShadowedHostile : public AssetHostile {
+ public:
+  KeptShadowedHostile() : AssetHostile(keptShadowed()) {}
+  static json& kept(json& document, int mesh) { return primitive(document, mesh)["shadowed"]; }
+};
+
+TEST_F(KeptShadowedHostile, Members) {
+  EXPECT_TRUE(readChanged([](json&) {}));
+  expectRefused("shadowed: is not an object", [](json& d) { kept(d, 0) = 3; });
+  expectRefused("shadowed.vectors: is not an object", [](json& d) { kept(d, 0)["vectors"] = 1; });
+  expectRefused("shadowed.vectors.channels: is missing",
+                [](json& d) { kept(d, 0)["vectors"].erase("channels"); });
+  expectRefused("shadowed.vectors: channels is 2, not 1 or 3",
+                [](json& d) { kept(d, 0)["vectors"]["channels"] = 2; });
+  expectRefused("shadowed.vectors: 36 numbers where 4 receivers × 3 channels × 9 coefficients",
+                [](json& d) { kept(d, 0)["vectors"]["channels"] = 3; });
+  expectRefused("shadowed.vectors.encoding: is neither",
+                [](json& d) { kept(d, 0)["vectors"]["encoding"] = "snorm8"; });
+  expectRefused("shadowed.matrices: 324 numbers where",
+                [](json& d) { kept(d, 1)["matrices"]["channels"] = 3; });
+  expectRefused("shadowed.matrices: 36 numbers where", [](json& d) {
+    kept(d, 1)["matrices"]["accessor"] = kept(d, 1)["vectors"]["accessor"];
+  });
+  expectRefused("shadowed.matrices.accessor: is not an integer",
+                [](json& d) { kept(d, 1)["matrices"]["accessor"] = -1; });
+  // Half of it would be shown with the other half of the interreflected one.
+  expectRefused("must hold vectors and matrices where the primitive does",
+                [](json& d) { kept(d, 1).erase("vectors"); });
+  expectRefused("must hold vectors and matrices where the primitive does",
+                [](json& d) { kept(d, 0)["matrices"] = kept(d, 1)["matrices"]; });
+  expectRefused("must hold vectors and matrices where the primitive does",
+                [](json& d) { primitive(d, 0).erase("vectors"); });
+  expectRefused("kept beside interreflected transfer alone, and this asset's is shadowed",
+                [](json& d) { root(d)["transfer"] = "shadowed"; });
+  // A member that says nothing is passed over, as is one that a later version may add.
+  EXPECT_TRUE(readChanged([](json& d) { kept(d, 0) = json::object(); }));
+  EXPECT_TRUE(readChanged([](json& d) { kept(d, 0)["texture"] = 7; }));
+}
+
+TEST_F(KeptShadowedHostile, NumbersThatAreNotFinite) {
+  asset_.transfer.meshes[1].shadowed.matrices.single[81 * 2 + 9 * 4 + 7] = std::nanf("");
+  const Status status = write(asset_, folder_ / "nan.glb");
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("shadowed.matrices: not a finite number at receiver 2, "
+                                        "channel 0, row 4, column 7"),
+            std::string::npos)
+      << status.error().message;
+}
+
+TEST_F(KeptShadowedHostile, AReaderThatDoesNotKnowItSeesTheInterreflectedTransfer) {
+  const Result<Asset> without = readChanged([](json& d) {
+    for (int mesh : {0, 1}) primitive(d, mesh).erase("shadowed");
+    root(d)["version"] = "1.1";
+  });
+  ASSERT_TRUE(without) << without.error().message;
+  Asset expected = keptShadowed();
+  for (encode::EncodedMesh& mesh : expected.transfer.meshes) mesh.shadowed = {};
+  test::expectSame(*without, expected);
 }
 
 }  // namespace

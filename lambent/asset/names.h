@@ -10,7 +10,7 @@ namespace lambent::asset {
 
 inline constexpr std::string_view kExtensionName = "LAMBENT_radiance_transfer";
 /// The format's own version, in every file. A reader takes any minor version of its major one.
-inline constexpr int kFormatMajor = 1, kFormatMinor = 1;
+inline constexpr int kFormatMajor = 1, kFormatMinor = 2;
 
 std::string_view nameOf(transport::TransferKind kind);  ///< unshadowed, shadowed, interreflected
 std::string_view nameOf(transport::Layout layout);      ///< none, vertices, texels

@@ -223,6 +223,21 @@ encode::EncodedBiScale biScaleOf(JsonFields object, AccessorReader& accessors) {
   return biScale;
 }
 
+encode::EncodedShadowed shadowedOf(JsonFields object, AccessorReader& accessors) {
+  encode::EncodedShadowed shadowed;
+  if (object.has("vectors")) {
+    JsonFields vectors = object.object("vectors");
+    shadowed.channels = int(vectors.integer("channels", 1, 3));
+    shadowed.vectors = accessors.numbers(vectors);
+  }
+  if (object.has("matrices")) {
+    JsonFields matrices = object.object("matrices");
+    shadowed.matrixChannels = int(matrices.integer("channels", 1, 3));
+    shadowed.matrices = accessors.numbers(matrices);
+  }
+  return shadowed;
+}
+
 EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Mesh& mesh) {
   EncodedMesh transfer;
   const std::string layout = object.string("layout");
@@ -257,6 +272,7 @@ EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Me
         float(matrices.number("lobeExponent", 0.0, std::numeric_limits<float>::max()));
     transfer.matrices = accessors.numbers(matrices);
   }
+  if (object.has("shadowed")) transfer.shadowed = shadowedOf(object.object("shadowed"), accessors);
   if (object.has("biScale")) transfer.biScale = biScaleOf(object.object("biScale"), accessors);
   return transfer;
 }

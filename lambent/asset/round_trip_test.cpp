@@ -256,6 +256,28 @@ TEST(IsAsset, TellsAssetsFromOtherFiles) {
   EXPECT_EQ(isAsset(folder / "missing.glb").error().kind, ErrorKind::BadInput);
 }
 
+TEST(AssetRoundTrip, ShadowedTransferKeptBesideIsExact) {
+  for (Layout layout : {Layout::Vertices, Layout::Texels})
+    for (Encoding encoding : {Encoding::Float16, Encoding::Float32})
+      for (int channels : {1, 3})
+        for (int outBands : {0, 2}) {
+          Asset asset = shaped(layout, encoding, 3, 3, outBands, 3);
+          asset.transfer.kind = transport::TransferKind::Interreflected;
+          encode::EncodedMesh& mesh = asset.transfer.meshes[0];
+          const std::size_t receivers = mesh.receiverCount() * std::size_t(channels);
+          mesh.shadowed.channels = channels;
+          mesh.shadowed.vectors = encode::encode(randomNumbers(receivers * 9, 3), encoding);
+          if (outBands > 0) {
+            mesh.shadowed.matrixChannels = channels;
+            mesh.shadowed.matrices = encode::encode(randomNumbers(receivers * 36, 4), encoding);
+          }
+          test::expectSame(throughFile(asset), asset);
+          mesh.vectors = mesh.shadowed.vectors = {};
+          mesh.bands = mesh.channels = mesh.shadowed.channels = 0;
+          if (outBands > 0) test::expectSame(throughFile(asset), asset);
+        }
+}
+
 TEST(AssetRoundTrip, BiScaleInEveryEncoding) {
   for (const Encoding encoding : {Encoding::Float16, Encoding::Float32, Encoding::Snorm8}) {
     Asset asset = biScale();

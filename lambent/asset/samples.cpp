@@ -221,10 +221,79 @@ Asset biScale() {
   return asset;
 }
 
+namespace {
+
+/// `numbers` for each of three channels, times that channel's factor.
+std::vector<float> tinted(const std::vector<float>& numbers, const Rgb& factors) {
+  std::vector<float> all;
+  for (int c = 0; c < 3; ++c)
+    for (const float number : numbers) all.push_back(factors[c] * number);
+  return all;
+}
+
+encode::Numbers atEach(const std::vector<float>& one, std::size_t receivers, Encoding encoding) {
+  std::vector<float> all;
+  for (std::size_t r = 0; r < receivers; ++r) all.insert(all.end(), one.begin(), one.end());
+  return encode::encode(all, encoding);
+}
+
+}  // namespace
+
+Asset keptShadowed() {
+  constexpr float kThrough = 0.5f;
+  const Rgb all = kThrough * Rgb(1.5f, 1.25f, 1.125f);
+  Asset asset;
+  scene::Material glossy = grey("glossy");
+  glossy.glossy = Rgb::Constant(0.25f);
+  glossy.lobeExponent = 8.0f;
+  asset.scene.materials = {grey("grey"), glossy};
+  asset.scene.meshes = {square("per vertex", 0, {0, 0, 0}), square("per texel", 1, {3, 0, 0})};
+  asset.transfer = statement();
+  asset.transfer.kind = transport::TransferKind::Interreflected;
+  asset.transfer.directions = 4096;
+  asset.transfer.bounces = 1;
+  asset.transfer.passEnergy = {0.25, 0.0625};
+
+  std::vector<float> vector = unoccluded(Rgb::Constant(0.5f), 1, Vec3::UnitY());
+  for (float& number : vector) number *= kThrough;
+  const auto setVectors = [&](encode::EncodedMesh& mesh, Encoding encoding) {
+    mesh.bands = 3;
+    mesh.channels = 3;
+    mesh.vectors = atEach(tinted(vector, all / kThrough), mesh.receiverCount(), encoding);
+    mesh.shadowed.channels = 1;
+    mesh.shadowed.vectors = atEach(vector, mesh.receiverCount(), encoding);
+  };
+  encode::EncodedMesh perVertex = atVertices(asset.scene.meshes[0]);
+  setVectors(perVertex, Encoding::Float16);
+
+  encode::EncodedMesh perTexel;
+  perTexel.layout = Layout::Texels;
+  perTexel.width = perTexel.height = 2;
+  for (const Vec2& at : {Vec2(2.5f, -0.5f), Vec2(3.5f, -0.5f), Vec2(2.5f, 0.5f), Vec2(3.5f, 0.5f)})
+    perTexel.positions.emplace_back(at.x(), 0.0f, at.y());
+  perTexel.normals.assign(4, Vec3::UnitY());
+  perTexel.covered.assign(4, 1);
+  setVectors(perTexel, Encoding::Float32);
+  std::vector<float> identity(81, 0.0f);
+  for (std::size_t i = 0; i < 9; ++i) identity[10 * i] = 1.0f;
+  perTexel.outBands = perTexel.inBands = 3;
+  perTexel.glossy = glossy.glossy;
+  perTexel.lobeExponent = glossy.lobeExponent;
+  perTexel.matrixChannels = 3;
+  perTexel.matrices = atEach(tinted(identity, all), 4, Encoding::Float32);
+  perTexel.shadowed.matrixChannels = 1;
+  for (float& number : identity) number *= kThrough;
+  perTexel.shadowed.matrices = atEach(identity, 4, Encoding::Float32);
+
+  asset.transfer.meshes = {perVertex, perTexel};
+  return asset;
+}
+
 std::vector<std::pair<std::string, Asset>> samples() {
   return {{"unoccluded-square.glb", unoccludedSquare()},
           {"every-layout.glb", everyLayout()},
-          {"bi-scale.glb", biScale()}};
+          {"bi-scale.glb", biScale()},
+          {"kept-shadowed.glb", keptShadowed()}};
 }
 
 }  // namespace lambent::asset

@@ -24,6 +24,12 @@ Asset everyLayout();
 /// tangent frame; one by its own UVs, without matrices.
 Asset biScale();
 
+/// Interreflected transfer with the shadowed one beside: a square with vectors at its vertices
+/// (float16; three channels, shadowed one) and a glossy one with vectors and matrices of 3 × 3
+/// bands on 2×2 texels (float32). A veil lets through half of the light that an open square would
+/// get; what it reflects adds a half, a quarter and an eighth of that for red, green and blue.
+Asset keptShadowed();
+
 /// File name → asset.
 std::vector<std::pair<std::string, Asset>> samples();
 

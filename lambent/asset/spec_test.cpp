@@ -40,7 +40,7 @@ void expectDescribed(const json& value, const json& schemaObject, const std::str
     }
     if (member.is_object()) expectDescribed(member, described, place + "." + key);
   }
-  for (const json& required : schemaObject["required"])
+  for (const json& required : schemaObject.value("required", json::array()))
     EXPECT_TRUE(value.contains(required.get<std::string>())) << required;
 }
 
@@ -76,6 +76,17 @@ TEST(Spec, BiScaleIsWhatTheSchemaSays) {
   }
 }
 
+TEST(Spec, KeptShadowedTransferIsWhatTheSchemaSays) {
+  const test::Folder folder;
+  ASSERT_TRUE(write(keptShadowed(), folder / "asset.glb"));
+  const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
+  EXPECT_EQ(document["extensions"][kName]["version"], "1.2");
+  const json described = schema("mesh.primitive");
+  for (std::size_t i = 0; i < 2; ++i)
+    expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][kName], described,
+                    "mesh " + std::to_string(i));
+}
+
 TEST(Spec, SchemaNamesEveryEnumeration) {
   const json primitives = schema("mesh.primitive");
   const json root = schema("glTF");
@@ -97,6 +108,20 @@ TEST(Spec, CommittedSamplesReadAsMeant) {
     const Result<Asset> read = asset::read(kSpec / "samples" / name);
     ASSERT_TRUE(read) << read.error().message
                       << "\nafter a change of the samples: lambent_write_samples spec/samples";
+    test::expectSame(*read, asset);
+  }
+}
+
+// As these versions wrote them: what has been baked stays readable.
+TEST(Spec, FilesOfOlderVersionsReadAsMeant) {
+  for (const auto& [file, asset] : {std::pair{"1.0/every-layout.glb", everyLayout()},
+                                    std::pair{"1.1/bi-scale.glb", biScale()}}) {
+    SCOPED_TRACE(file);
+    const json document =
+        json::parse(test::Glb::parse(test::bytesOf(kSpec / "samples" / file)).json);
+    EXPECT_EQ(document["extensions"][kName]["version"], std::string(file).substr(0, 3));
+    const Result<Asset> read = asset::read(kSpec / "samples" / file);
+    ASSERT_TRUE(read) << read.error().message;
     test::expectSame(*read, asset);
   }
 }

@@ -49,6 +49,11 @@ MeshSummary summaryOf(const scene::Scene& scene, const scene::Mesh& mesh,
                                        .glossy = transfer.glossy,
                                        .lobeExponent = transfer.lobeExponent,
                                        .bytes = bytesOf(transfer.matrices)};
+  if (const encode::EncodedShadowed& kept = transfer.shadowed; !kept.empty())
+    summary.shadowed =
+        ShadowedSummary{.channels = kept.vectors.empty() ? 0 : kept.channels,
+                        .matrixChannels = kept.matrices.empty() ? 0 : kept.matrixChannels,
+                        .bytes = bytesOf(kept.vectors) + bytesOf(kept.matrices)};
   if (const auto& b = transfer.biScale)
     summary.biScale = BiScaleSummary{
         .rtt = b->rtt,
@@ -93,8 +98,8 @@ Summary summarize(const Asset& asset) {
     summary.triangles += mesh.triangles;
     summary.receivers += mesh.receivers;
     summary.bytes.geometry += bytesOf(scene.meshes[i]);
-    summary.bytes.vectors += bytesOf(transfer.vectors);
-    summary.bytes.matrices += bytesOf(transfer.matrices);
+    summary.bytes.vectors += bytesOf(transfer.vectors) + bytesOf(transfer.shadowed.vectors);
+    summary.bytes.matrices += bytesOf(transfer.matrices) + bytesOf(transfer.shadowed.matrices);
     const std::uint64_t places =
         bytesOf(transfer.positions) + bytesOf(transfer.normals) + bytesOf(transfer.covered);
     if (transfer.layout == transport::Layout::Texels) summary.bytes.receivers += places;

@@ -25,6 +25,12 @@ struct MatricesSummary {
   std::uint64_t bytes = 0;
 };
 
+/// Shadowed transfer kept beside the interreflected one.
+struct ShadowedSummary {
+  int channels = 0, matrixChannels = 0;  ///< 0: no vectors, no matrices
+  std::uint64_t bytes = 0;
+};
+
 struct RttSummary {
   std::string name;
   int width = 0, height = 0, views = 0, bands = 0;
@@ -55,15 +61,16 @@ struct MeshSummary {
   std::uint64_t covered = 0;  ///< Texels: receivers with a surface point of their own
   std::optional<VectorsSummary> vectors;
   std::optional<MatricesSummary> matrices;
+  std::optional<ShadowedSummary> shadowed;
   std::optional<BiScaleSummary> biScale;
 };
 
 /// Bytes that each part takes in the file's binary chunk, without the JSON and without padding.
 struct PartBytes {
-  std::uint64_t geometry = 0;  ///< positions, normals, UVs, colours (as floats), 32-bit indices
-  std::uint64_t textures = 0;  ///< as encoded in the file
-  std::uint64_t vectors = 0;
-  std::uint64_t matrices = 0;
+  std::uint64_t geometry = 0;   ///< positions, normals, UVs, colours (as floats), 32-bit indices
+  std::uint64_t textures = 0;   ///< as encoded in the file
+  std::uint64_t vectors = 0;    ///< those kept beside included
+  std::uint64_t matrices = 0;   ///< the same
   std::uint64_t receivers = 0;  ///< texel receivers' positions, normals and coverage; tangents
   std::uint64_t rtts = 0;
   std::uint64_t idMaps = 0;

@@ -50,5 +50,18 @@ TEST(Summary, CountsWhatIsThere) {
   EXPECT_EQ(summary.memoryBytes, summary.bytes.total() + 8u * 24u);
 }
 
+TEST(Summary, CountsWhatIsKeptBeside) {
+  const Summary summary = summarize(keptShadowed());
+  ASSERT_TRUE(summary.meshes[0].shadowed && summary.meshes[1].shadowed);
+  EXPECT_EQ(summary.meshes[0].vectors->channels, 3);
+  EXPECT_EQ(summary.meshes[0].shadowed->channels, 1);
+  EXPECT_EQ(summary.meshes[0].shadowed->matrixChannels, 0);
+  EXPECT_EQ(summary.meshes[0].shadowed->bytes, 4u * 9u * 2u);
+  EXPECT_EQ(summary.meshes[1].shadowed->matrixChannels, 1);
+  EXPECT_EQ(summary.meshes[1].shadowed->bytes, 4u * (9u + 81u) * 4u);
+  EXPECT_EQ(summary.bytes.vectors, 4u * 36u * 2u + 4u * 36u * 4u);
+  EXPECT_EQ(summary.bytes.matrices, 4u * 4u * 81u * 4u);
+}
+
 }  // namespace
 }  // namespace lambent::asset

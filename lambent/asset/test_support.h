@@ -125,6 +125,10 @@ inline void expectSame(const encode::EncodedMesh& a, const encode::EncodedMesh& 
   EXPECT_EQ(a.lobeExponent, b.lobeExponent);
   expectSame(a.vectors, b.vectors);
   expectSame(a.matrices, b.matrices);
+  EXPECT_EQ(a.shadowed.channels, b.shadowed.channels);
+  EXPECT_EQ(a.shadowed.matrixChannels, b.shadowed.matrixChannels);
+  expectSame(a.shadowed.vectors, b.shadowed.vectors);
+  expectSame(a.shadowed.matrices, b.shadowed.matrices);
   ASSERT_EQ(a.biScale.has_value(), b.biScale.has_value());
   if (a.biScale) expectSame(*a.biScale, *b.biScale);
 }

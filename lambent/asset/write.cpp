@@ -101,6 +101,16 @@ json rootObject(const encode::EncodedField& field) {
   return root;
 }
 
+json shadowedObject(GltfBuilder& gltf, const encode::EncodedShadowed& shadowed) {
+  json object;
+  if (!shadowed.vectors.empty())
+    object["vectors"] = numbersObject(gltf, shadowed.vectors, {{"channels", shadowed.channels}});
+  if (!shadowed.matrices.empty())
+    object["matrices"] =
+        numbersObject(gltf, shadowed.matrices, {{"channels", shadowed.matrixChannels}});
+  return object;
+}
+
 json primitiveObject(GltfBuilder& gltf, const EncodedMesh& mesh) {
   json object;
   object["layout"] = nameOf(mesh.layout);
@@ -116,6 +126,7 @@ json primitiveObject(GltfBuilder& gltf, const EncodedMesh& mesh) {
                        {"channels", mesh.matrixChannels},
                        {"glossy", {mesh.glossy[0], mesh.glossy[1], mesh.glossy[2]}},
                        {"lobeExponent", mesh.lobeExponent}});
+  if (!mesh.shadowed.empty()) object["shadowed"] = shadowedObject(gltf, mesh.shadowed);
   if (mesh.biScale) object["biScale"] = biScaleObject(gltf, *mesh.biScale);
   if (mesh.layout == Layout::Texels) {
     const std::size_t count = mesh.receiverCount();

@@ -99,7 +99,7 @@ async function elsewhere(document, bytes, complain) {
     expectNumbers(`/extensions/${NAME}/rtts/${i}`, rtt.values,
       rtt.bands ** 2 * rtt.width * rtt.height * rtt.views ** 2 * 3, rtt.bands ** 2);
   for (const { primitive, object, place } of primitivesOf(document)) {
-    const { grid, vectors, matrices, biScale } = object;
+    const { grid, vectors, matrices, shadowed: kept, biScale } = object;
     const receivers = grid
       ? grid.width * grid.height
       : document.accessors[primitive.attributes.POSITION].count;
@@ -109,6 +109,12 @@ async function elsewhere(document, bytes, complain) {
     if (matrices)
       expect(`${place}/matrices`, matrices.accessor, component[matrices.encoding], 'SCALAR',
         receivers * matrices.channels * matrices.outBands ** 2 * matrices.inBands ** 2);
+    if (kept?.vectors)
+      expectNumbers(`${place}/shadowed/vectors`, kept.vectors,
+        receivers * kept.vectors.channels * vectors.bands ** 2);
+    if (kept?.matrices)
+      expectNumbers(`${place}/shadowed/matrices`, kept.matrices,
+        receivers * kept.matrices.channels * matrices.outBands ** 2 * matrices.inBands ** 2);
     if (biScale) {
       if (!rtts[biScale.rtt]) complain(`${place}/biScale: there is no rtt ${biScale.rtt}`);
       expect(`${place}/biScale/tangents`, biScale.tangents, 5126, 'VEC3', receivers);
