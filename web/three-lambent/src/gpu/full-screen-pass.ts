@@ -18,7 +18,8 @@ export class FullScreenPass {
   private readonly mesh = new Mesh(this.geometry);
 
   constructor() {
-    this.geometry.setAttribute("position", new Float32BufferAttribute([-1, -1, 3, -1, -1, 3], 2));
+    const corners = [-1, -1, 0, 3, -1, 0, -1, 3, 0];
+    this.geometry.setAttribute("position", new Float32BufferAttribute(corners, 3));
     this.mesh.frustumCulled = false;
     this.scene.add(this.mesh);
     this.scene.matrixWorldAutoUpdate = false;
