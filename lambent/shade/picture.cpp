@@ -27,6 +27,7 @@ struct LitScene {
   const asset::Asset& asset;
   const light::Environment& environment;
   SampleWidth width;
+  std::vector<ShownTransfer> transfers;
   std::vector<LitMesh> meshes;
   std::map<std::uint32_t, LitPatch> patches;  ///< of meshes with meso-structure
 
@@ -35,7 +36,7 @@ struct LitScene {
     const scene::Scene& scene = asset.scene;
     const scene::Mesh& mesh = scene.meshes[hit.mesh];
     const scene::Material& material = scene.materials[mesh.material];
-    const encode::EncodedMesh& transfer = asset.transfer.meshes[hit.mesh];
+    const encode::EncodedMesh& transfer = transfers[hit.mesh].get();
     const LitMesh& lit = meshes[hit.mesh];
 
     const scene::SurfacePoint point = scene::surfaceAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
@@ -64,10 +65,13 @@ Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficient
   Result<trace::RayScene> rays = trace::RayScene::build(asset.scene);
   if (!rays) return rays.error();
 
-  LitScene lit{asset, environment, sampleWidth(camera, options.height, options.samples), {}, {}};
+  LitScene lit{asset, environment, sampleWidth(camera, options.height, options.samples),
+               {},    {},          {}};
   RttPyramids pyramids(asset.transfer, options.biScale.filter);
+  lit.transfers.reserve(asset.transfer.meshes.size());  // patches hold on to them
   for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m) {
-    const encode::EncodedMesh& mesh = asset.transfer.meshes[m];
+    const encode::EncodedMesh& mesh =
+        lit.transfers.emplace_back(asset, m, options.transfer, options.biScale.macro).get();
     lit.meshes.push_back(lightMesh(mesh, light, options.lobeExponent));
     if (mesh.biScale)
       lit.patches.emplace(m, LitPatch(asset.scene.meshes[m], mesh, asset.transfer,

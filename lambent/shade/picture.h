@@ -9,6 +9,7 @@
 #include "lambent/report/progress.h"
 #include "lambent/scene/camera.h"
 #include "lambent/shade/bi_scale_options.h"
+#include "lambent/shade/transfer_choice.h"
 
 namespace lambent::shade {
 
@@ -17,7 +18,8 @@ struct PictureOptions {
   int samples = 16;         ///< per pixel, at scene::subpixelPositions
   bool background = false;  ///< the environment behind the object; otherwise black, alpha 0
   std::optional<float> lobeExponent;
-  BiScaleOptions biScale;  ///< of meshes with meso-structure
+  TransferChoice transfer = TransferChoice::Best;  ///< of what the asset holds
+  BiScaleOptions biScale;  ///< of meshes with meso-structure; its `macro` wins over `transfer`
 };
 
 /// Linear radiance, never negative (what a ringing light drives below zero is cut off per pixel,

@@ -70,9 +70,23 @@ Status checkMesh(const std::string& where, const scene::Mesh& mesh, const Encode
                                transfer.channels, sh::coefficientCount(transfer.bands));
       !s)
     return s;
-  return checkTransfer(
-      where, "transfer matrices", transfer.matrices, receivers, transfer.matrixChannels,
-      sh::coefficientCount(transfer.outBands) * sh::coefficientCount(transfer.inBands));
+  const int matrix =
+      sh::coefficientCount(transfer.outBands) * sh::coefficientCount(transfer.inBands);
+  if (Status s = checkTransfer(where, "transfer matrices", transfer.matrices, receivers,
+                               transfer.matrixChannels, matrix);
+      !s)
+    return s;
+  const encode::EncodedShadowed& kept = transfer.shadowed;
+  if (!kept.empty() && (kept.vectors.empty() != transfer.vectors.empty() ||
+                        kept.matrices.empty() != transfer.matrices.empty()))
+    return report::badInput(
+        fmt::format("{}: its shadowed transfer lacks what the interreflected one has", where));
+  if (Status s = checkTransfer(where, "shadowed transfer vectors", kept.vectors, receivers,
+                               kept.channels, sh::coefficientCount(transfer.bands));
+      !s)
+    return s;
+  return checkTransfer(where, "shadowed transfer matrices", kept.matrices, receivers,
+                       kept.matrixChannels, matrix);
 }
 
 }  // namespace

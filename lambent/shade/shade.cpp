@@ -115,8 +115,8 @@ Vec3 directionToViewer(const View& view, const EncodedMesh& mesh, std::size_t re
 }
 
 std::vector<Rgb> patchRadiance(const asset::Asset& asset, std::uint32_t meshIndex,
-                               const sh::RgbCoefficients& light, const View& view) {
-  const EncodedMesh& mesh = asset.transfer.meshes[meshIndex];
+                               const EncodedMesh& mesh, const sh::RgbCoefficients& light,
+                               const View& view) {
   const LitPatch lit(asset.scene.meshes[meshIndex], mesh, asset.transfer,
                      RttPyramids(asset.transfer, false).of(mesh.biScale->rtt), light, view.biScale);
   std::vector<Rgb> out(mesh.receiverCount());
@@ -132,9 +132,10 @@ std::vector<Rgb> patchRadiance(const asset::Asset& asset, std::uint32_t meshInde
 std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t meshIndex,
                               const sh::RgbCoefficients& light, const View& view) {
   assert(meshIndex < asset.transfer.meshes.size() && meshIndex < asset.scene.meshes.size());
-  const EncodedMesh& mesh = asset.transfer.meshes[meshIndex];
+  const ShownTransfer shown(asset, meshIndex, view.transfer, view.biScale.macro);
+  const EncodedMesh& mesh = shown.get();
   if (mesh.layout == transport::Layout::None) return {};
-  if (mesh.biScale) return patchRadiance(asset, meshIndex, light, view);
+  if (mesh.biScale) return patchRadiance(asset, meshIndex, mesh, light, view);
   const LitMesh lit = lightMesh(mesh, light, view.lobeExponent);
   const std::vector<Rgb> base = receiverBaseColors(asset.scene, meshIndex, mesh);
 

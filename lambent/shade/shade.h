@@ -11,6 +11,7 @@
 #include "lambent/sh/coefficients.h"
 #include "lambent/shade/aligned_vector.h"
 #include "lambent/shade/bi_scale_options.h"
+#include "lambent/shade/transfer_choice.h"
 
 namespace lambent::shade {
 
@@ -38,7 +39,9 @@ std::vector<float> transferredRadiance(const encode::EncodedMesh& mesh,
 struct View {
   std::optional<Vec3> eye;  ///< world position; none: every receiver is seen along its normal
   std::optional<float> lobeExponent;  ///< instead of the material's
-  BiScaleOptions biScale;             ///< of meshes with meso-structure; receivers are not filtered
+  /// Of meshes with meso-structure; receivers are not filtered. Its `macro` wins over `transfer`.
+  BiScaleOptions biScale;
+  TransferChoice transfer = TransferChoice::Best;  ///< of what the asset holds
 };
 
 /// Whole exit radiance of every receiver of a mesh: diffuse and glossy (eq. 12) parts and base

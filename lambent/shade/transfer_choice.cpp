@@ -304,4 +304,11 @@ EncodedMesh chosenTransfer(const asset::Asset& asset, std::uint32_t index, Trans
   return mesh;
 }
 
+ShownTransfer::ShownTransfer(const asset::Asset& asset, std::uint32_t mesh, TransferChoice choice,
+                             std::optional<MacroTransport> macro)
+    : stored_(&asset.transfer.meshes[mesh]) {
+  if (stored_->biScale && macro) return;
+  if (!isStored(asset, mesh, choice)) made_ = chosenTransfer(asset, mesh, choice);
+}
+
 }  // namespace lambent::shade

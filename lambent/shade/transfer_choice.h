@@ -8,6 +8,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/encode/encoded_field.h"
 #include "lambent/report/result.h"
+#include "lambent/shade/bi_scale_options.h"
 
 namespace lambent::shade {
 
@@ -37,5 +38,19 @@ bool isStored(const asset::Asset& asset, std::uint32_t mesh, TransferChoice choi
 /// matrices are, otherwise float16. All threads.
 encode::EncodedMesh chosenTransfer(const asset::Asset& asset, std::uint32_t mesh,
                                    TransferChoice choice);
+
+/// The transfer that a mesh is shown with: a copy is made only where the choice wants one.
+class ShownTransfer {
+ public:
+  /// `macro`: the switch of meshes with meso-structure, which wins over the choice where it is set:
+  /// such a mesh is then shown as stored. `asset` must outlive it.
+  ShownTransfer(const asset::Asset& asset, std::uint32_t mesh, TransferChoice choice,
+                std::optional<MacroTransport> macro);
+  const encode::EncodedMesh& get() const { return made_ ? *made_ : *stored_; }
+
+ private:
+  const encode::EncodedMesh* stored_;
+  std::optional<encode::EncodedMesh> made_;
+};
 
 }  // namespace lambent::shade

@@ -145,6 +145,58 @@ TEST(TransferChoice, WithoutAKeptOneShadowedFallsToUnshadowed) {
   EXPECT_TRUE(isStored(shadowed, 4, TransferChoice::Unshadowed));  // a mirror
 }
 
+TEST(TransferChoice, KeptShadowedTransferIsAShadowedAsset) {
+  const asset::Asset both = baked(TransferKind::Interreflected, true);
+  const asset::Asset alone = baked(TransferKind::Shadowed, false);
+  for (const TransferChoice choice :
+       {TransferChoice::Unshadowed, TransferChoice::Shadowed, TransferChoice::Interreflected})
+    EXPECT_TRUE(offers(both, choice)) << nameOf(choice);
+  for (std::uint32_t m = 0; m < both.transfer.meshes.size(); ++m) {
+    SCOPED_TRACE(m);
+    expectSame(chosenTransfer(both, m, TransferChoice::Shadowed), alone.transfer.meshes[m]);
+    EncodedMesh best = both.transfer.meshes[m];
+    best.shadowed = {};
+    expectSame(chosenTransfer(both, m, TransferChoice::Best), best);
+    expectSame(chosenTransfer(both, m, TransferChoice::Interreflected), best);
+  }
+}
+
+// What a picture shows under a choice is what it shows of an asset that was baked so.
+TEST(TransferChoice, PicturesAndExitRadianceFollowIt) {
+  const asset::Asset both = baked(TransferKind::Interreflected, true);
+  const light::Environment sky = test::sky();
+  const sh::RgbCoefficients light = sky.project(3);
+  const scene::Camera camera = test::cameraAt({1, 4, 12}, {0, 0, 1});
+  const Vec3 eye(1, 4, 12);
+  for (const auto& [choice, kind] : {std::pair{TransferChoice::Shadowed, TransferKind::Shadowed},
+                                     {TransferChoice::Unshadowed, TransferKind::Unshadowed}}) {
+    SCOPED_TRACE(nameOf(choice));
+    const asset::Asset alone = baked(kind, false);
+    PictureOptions options;
+    options.width = options.height = 40;
+    options.samples = 4;
+    const auto best = picture(both, light, sky, camera, options);
+    const auto expected = picture(alone, light, sky, camera, options);
+    options.transfer = choice;
+    const auto chosen = picture(both, light, sky, camera, options);
+    ASSERT_TRUE(best && expected && chosen);
+    float most = 0.0f, change = 0.0f;
+    for (std::size_t k = 0; k < chosen->pixels.size(); ++k) {
+      most = std::max(most, (chosen->pixels[k] - expected->pixels[k]).abs().maxCoeff());
+      change = std::max(change, (chosen->pixels[k] - best->pixels[k]).abs().maxCoeff());
+    }
+    EXPECT_LT(most, 1e-5f);
+    EXPECT_GT(change, 0.05f);
+    for (std::uint32_t m = 0; m < both.transfer.meshes.size(); ++m) {
+      const std::vector<Rgb> a = exitRadiance(both, m, light, {eye, {}, {}, choice}),
+                             b = exitRadiance(alone, m, light, {eye, {}, {}, TransferChoice::Best});
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t p = 0; p < a.size(); ++p)
+        EXPECT_LT((a[p] - b[p]).abs().maxCoeff(), 1e-5f) << m << ", " << p;
+    }
+  }
+}
+
 TEST(TransferChoice, NamesAreThere) {
   for (const TransferChoice choice : {TransferChoice::Best, TransferChoice::Unshadowed,
                                       TransferChoice::Shadowed, TransferChoice::Interreflected})
@@ -185,6 +237,28 @@ TEST(TransferChoice, OfMesoStructureIsTheMacroSwitch) {
       for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], near) << k;
     }
   }
+}
+
+TEST(TransferChoice, TheMacroSwitchWinsOverIt) {
+  const asset::Asset asset = patched(Encoding::Float32);
+  const sh::RgbCoefficients light = test::sky().project(4);
+  const auto shown = [&](TransferChoice choice, std::optional<MacroTransport> macro) {
+    View view;
+    view.transfer = choice;
+    view.biScale.macro = macro;
+    return exitRadiance(asset, 0, light, view)[7][0];
+  };
+  const float off = shown(TransferChoice::Best, MacroTransport::Off);
+  const float shadowed = shown(TransferChoice::Best, MacroTransport::Shadowed);
+  const float best = shown(TransferChoice::Best, {});
+  EXPECT_GT(std::abs(off - shadowed), 1e-3f);
+  EXPECT_GT(std::abs(best - shadowed), 1e-3f);
+  EXPECT_NEAR(shown(TransferChoice::Unshadowed, {}), off, 1e-5f);
+  EXPECT_EQ(shown(TransferChoice::Shadowed, {}), shadowed);
+  EXPECT_EQ(shown(TransferChoice::Interreflected, {}), best);
+  EXPECT_EQ(shown(TransferChoice::Unshadowed, MacroTransport::Shadowed), shadowed);
+  EXPECT_EQ(shown(TransferChoice::Shadowed, MacroTransport::Interreflected), best);
+  EXPECT_EQ(shown(TransferChoice::Interreflected, MacroTransport::Off), off);
 }
 
 TEST(TransferChoice, MesoStructureWithoutMatricesHoldsTheRotationAlone) {
