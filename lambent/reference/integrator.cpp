@@ -1,7 +1,8 @@
 // Unidirectional path tracing. At every diffuse or glossy surface of a path: direct light by a draw
 // from the environment and by the draw that continues the path, weighted by the balance heuristic;
 // light that comes over mirrors only by the latter, because no draw from the environment can find
-// it (a directional light over a mirror is therefore never found).
+// it (a directional light over a mirror is therefore never found). Where surfaces emit, their light
+// is found in the same two ways, by a draw from them and by the draw that continues the path.
 //
 // The conventions are the bake's, so that both converge to the same numbers: rays start on the
 // surface lifted by RayScene::offset() along the shading normal; directions behind the shading
@@ -32,7 +33,7 @@ constexpr float kLeastSurvival = 0.05f;
 
 Integrator::Integrator(const scene::Scene& scene, const trace::RayScene& rays,
                        const light::Environment& environment, const PathTraceOptions& options)
-    : scene_(scene), rays_(rays), environment_(environment), options_(options) {
+    : scene_(scene), rays_(rays), environment_(environment), options_(options), emitters_(scene) {
   for (const scene::Material& material : scene.materials) hasMirrors_ |= material.isMirror();
 }
 
@@ -48,7 +49,7 @@ Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb
     const scene::SurfacePoint point =
         scene::surfaceAt(scene_, hit->mesh, hit->triangle, hit->u, hit->v);
     if (!scene_.materials[scene_.meshes[hit->mesh].material].isMirror())
-      return Surface{point, -direction};
+      return Surface{point, -direction, mirrors};
     if (mirrors == kMostMirrors) return Blocked{};
     tint *= point.mirror;
     direction = math::reflectAbout(-direction, point.normal).normalized();
@@ -58,14 +59,14 @@ Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb
 
 Rgb Integrator::leaving(const scene::SurfacePoint& point, const Vec3& toViewer,
                         Sampler& sampler) const {
-  if (!(point.mirror.maxCoeff() > 0)) return scattered(point, toViewer, sampler);
+  if (!(point.mirror.maxCoeff() > 0)) return point.emission + scattered(point, toViewer, sampler);
   Rgb tint = point.mirror;
   const Vec3 away = math::reflectAbout(toViewer, point.normal).normalized();
   const End end = follow(lifted(point), away, 1, tint);
   if (const auto* escaped = std::get_if<Escaped>(&end))
     return tint * environment_.radiance(escaped->direction);
   if (const auto* surface = std::get_if<Surface>(&end))
-    return tint * scattered(surface->point, surface->toViewer, sampler);
+    return tint * (surface->point.emission + scattered(surface->point, surface->toViewer, sampler));
   return Rgb::Zero();
 }
 
@@ -73,12 +74,30 @@ Integrator::Seen Integrator::seen(const scene::Ray& ray, Sampler& sampler) const
   Rgb tint = Rgb::Ones();
   const End end = follow(ray.origin, ray.direction, 0, tint);
   if (const auto* surface = std::get_if<Surface>(&end))
-    return {tint * scattered(surface->point, surface->toViewer, sampler), 1.0f};
+    return {
+        tint * (surface->point.emission + scattered(surface->point, surface->toViewer, sampler)),
+        1.0f};
   if (const auto* escaped = std::get_if<Escaped>(&end)) {
     if (escaped->mirrors == 0 && !options_.background) return {Rgb::Zero(), 0.0f};
     return {tint * environment_.radiance(escaped->direction), 1.0f};
   }
   return {Rgb::Zero(), 1.0f};
+}
+
+Rgb Integrator::drawnFromEmitters(const Vec3& origin, const Scattering& scattering,
+                                  Sampler& sampler) const {
+  const Vec2 place = sampler.next(), choice = sampler.next();
+  const Emitters::Sample drawn = emitters_.sample(place, choice.x());
+  const Vec3 way = drawn.position - origin;
+  const float distance = way.norm();
+  if (!(distance > 0)) return Rgb::Zero();
+  const Vec3 direction = way / distance;
+  const Rgb value = scattering.value(direction);
+  const float pdf = emitters_.pdf(drawn.emission, distance, -direction.dot(drawn.normal));
+  if (!(value > 0).any() || !std::isfinite(pdf)) return Rgb::Zero();
+  // Up to just before the emitter itself.
+  if (rays_.occluded(origin, direction, 0, distance * (1 - 1e-4f))) return Rgb::Zero();
+  return value * drawn.emission / (pdf + scattering.pdf(direction));
 }
 
 Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sampler) const {
@@ -104,6 +123,9 @@ Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sam
       }
     }
 
+    if (!emitters_.empty() && options_.shadows)
+      sum += throughput * drawnFromEmitters(origin, scattering, sampler);
+
     const Vec3 direction = scattering.draw(lobeNumbers, choices.x());
     const float pdf = scattering.pdf(direction);
     const Rgb value = scattering.value(direction);
@@ -113,7 +135,7 @@ Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sam
     End end = Blocked{};
     if (!options_.shadows) {
       end = Escaped{direction, 0};
-    } else if (bounce == bounces && !hasMirrors_) {
+    } else if (bounce == bounces && !hasMirrors_ && emitters_.empty()) {
       if (!rays_.occluded(origin, direction)) end = Escaped{direction, 0};
     } else {
       end = follow(origin, direction, 0, throughput);
@@ -124,7 +146,17 @@ Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sam
       return sum + throughput * environment_.radiance(escaped->direction) * weight;
     }
     const auto* surface = std::get_if<Surface>(&end);
-    if (!surface || bounce == bounces) return sum;
+    if (!surface) return sum;
+    if (surface->point.emission.maxCoeff() > 0) {
+      float weight = 1.0f;
+      if (surface->mirrors == 0) {
+        const float distance = (surface->point.position - origin).norm();
+        weight = pdf / (pdf + emitters_.pdf(surface->point.emission, distance,
+                                            surface->toViewer.dot(surface->point.geometricNormal)));
+      }
+      sum += throughput * surface->point.emission * weight;
+    }
+    if (bounce == bounces) return sum;
     if (bounce >= kRouletteDepth) {
       const float survival = std::clamp(throughput.maxCoeff(), kLeastSurvival, 1.0f);
       if (choices.y() >= survival) return sum;

@@ -4,8 +4,10 @@
 #include <variant>
 
 #include "lambent/light/environment.h"
+#include "lambent/reference/emitters.h"
 #include "lambent/reference/path_tracer.h"
 #include "lambent/reference/sampler.h"
+#include "lambent/reference/scattering.h"
 #include "lambent/scene/camera.h"
 #include "lambent/trace/ray_scene.h"
 
@@ -35,18 +37,22 @@ class Integrator {
   struct Surface {
     scene::SurfacePoint point;
     Vec3 toViewer;  ///< back along the ray that arrived
+    int mirrors;    ///< on the way
   };
   /// Where a ray ends when mirrors are followed, and what they left of the light in `tint`.
   using End = std::variant<Blocked, Escaped, Surface>;
   End follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint) const;
 
+  /// Without what the point itself emits.
   Rgb scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sampler) const;
+  Rgb drawnFromEmitters(const Vec3& origin, const Scattering& scattering, Sampler& sampler) const;
   Vec3 lifted(const scene::SurfacePoint& point) const;
 
   const scene::Scene& scene_;
   const trace::RayScene& rays_;
   const light::Environment& environment_;
   PathTraceOptions options_;
+  Emitters emitters_;
   bool hasMirrors_ = false;
 };
 

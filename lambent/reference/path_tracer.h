@@ -32,7 +32,9 @@ struct Picture {
 
 /// Unbiased, but for what no path can find: a directional light by way of a mirror. Fronts alone
 /// scatter light, backs block it (and are black to a camera); a surface with a mirror reflectance
-/// is a mirror and nothing else. Pixels are box-filtered.
+/// is a mirror and nothing else. The fronts of emitting materials (Material::emission) are seen and
+/// light other surfaces; not so without shadows, where no surface counts but the one that is lit.
+/// Pixels are box-filtered.
 ///
 /// The variance is measured between 16 independent batches of paths (between paths, below 32
 /// samples), so it is itself known within 37% (standard error) and (mean − truth)/√variance is

@@ -22,17 +22,21 @@ namespace lambent::scene {
 ///             (r+1)/2π · max(0, s·R)^r of unit integral (Sloan 2002 §4.2).
 ///  - mirror:  a perfect reflection. A surface with any mirror reflectance is a mirror and nothing
 ///             else: it connects paths and records no transfer (Sloan 2002 §5).
+/// Besides, its front may emit light of its own, the same radiance everywhere and in all
+/// directions: the path tracer and captured light know of it, a bake leaves it out.
 struct Material {
   std::string name;
   Rgb diffuse = Rgb::Constant(0.8f);
   Rgb glossy = Rgb::Zero();
   Rgb mirror = Rgb::Zero();
   float lobeExponent = 16.0f;  ///< r of the lobe, ≥ 0
-  int baseColorTexture = -1;   ///< index into Scene::textures, or −1
-  bool doubleSided = false;    ///< as the file says; Lambent lights front faces only
+  Rgb emission = Rgb::Zero();  ///< radiance, W m⁻² sr⁻¹, ≥ 0; the base colour leaves it alone
+  int baseColorTexture = -1;  ///< index into Scene::textures, or −1
+  bool doubleSided = false;   ///< as the file says; Lambent lights front faces only
 
   bool isMirror() const { return mirror.maxCoeff() > 0.0f; }
   bool isGlossy() const { return !isMirror() && glossy.maxCoeff() > 0.0f; }
+  bool isEmitter() const { return emission.maxCoeff() > 0.0f; }
   bool isDiffuse() const { return !isMirror() && diffuse.maxCoeff() > 0.0f; }
 };
 
@@ -102,6 +106,7 @@ struct SurfacePoint {
   Vec2 uv = Vec2::Zero();
   Rgb diffuse, glossy, mirror;  ///< reflectances with texture and vertex colour applied
   float lobeExponent = 0.0f;
+  Rgb emission = Rgb::Zero();  ///< radiance that leaves the front by itself
 };
 
 /// The point of `triangle` with barycentric coordinates (1−u−v, u, v).

@@ -79,6 +79,7 @@ void applyMaterial(const Scene& scene, const Mesh& mesh, const Vec2& uv, const R
   point.glossy = material.glossy * base;
   point.mirror = material.mirror * base;
   point.lobeExponent = material.lobeExponent;
+  point.emission = material.emission;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lambent/radiometry/tone.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_material.h"
 #include "lambent/scene_io/image_codec.h"
@@ -111,15 +112,27 @@ void GltfMaterials::readMaterial(const json& object, int index) {
     diagnosis_.add(Severity::Note, "normal-map-ignored", 1,
                    "normal maps are ignored: transfer is baked on the mesh itself", place);
   }
-  if (const auto emission = rgb(&object, "emissiveFactor"); emission && emission->maxCoeff() > 0) {
-    diagnosis_.add(Severity::Warning, "emission-ignored", 1,
-                   "materials emit light, which is ignored: Lambent bakes distant light", place);
-  }
+  material.emission = readEmission(object, place);
   if (const std::string mode = text(&object, "alphaMode"); mode == "BLEND" || mode == "MASK") {
     diagnosis_.add(Severity::Warning, "alpha-ignored", 1,
                    "materials are (partly) transparent and are taken as opaque", place);
   }
   scene_.materials.push_back(std::move(material));
+}
+
+// Constant over the surface: a texture of it is replaced by its mean.
+Rgb GltfMaterials::readEmission(const json& object, const std::string& place) {
+  const auto factor = rgb(&object, "emissiveFactor");
+  if (!factor || !(factor->maxCoeff() > 0.0f)) return Rgb::Zero();
+  Rgb emission = factor->max(0.0f);
+  const json* strength = find(find(object, "extensions"), "KHR_materials_emissive_strength");
+  emission *= float(std::clamp(number(strength, "emissiveStrength", 1.0), 0.0, 1e9));
+  if (const json* info = find(object, "emissiveTexture")) {
+    emission *= meanColor(info);
+    diagnosis_.add(Severity::Note, "mean-emission", 1,
+                   "emissive textures were replaced by their mean", place);
+  }
+  return emission;
 }
 
 Result<scene::Texture> GltfMaterials::readImage(std::int64_t index) const {
@@ -158,6 +171,17 @@ int GltfMaterials::readTexture(std::int64_t index) {
   entry->second = int(scene_.textures.size());
   scene_.textures.push_back(std::move(*texture));
   return entry->second;
+}
+
+Rgb GltfMaterials::meanColor(const json* textureInfo) {
+  const json* object =
+      element(file_.json(), "textures", integer(textureInfo, "index").value_or(-1));
+  const Result<scene::Texture> texture = readImage(integer(object, "source").value_or(-1));
+  if (!texture || texture->rgba.empty()) return Rgb::Ones();
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  for (std::size_t i = 0; i < texture->rgba.size(); i += 4)
+    for (int c = 0; c < 3; ++c) sum[c] += radiometry::srgbDecode(texture->rgba[i + c] / 255.0f);
+  return (sum / double(texture->rgba.size() / 4)).cast<float>();
 }
 
 double GltfMaterials::meanOfChannel(const json* textureInfo, int channel) {

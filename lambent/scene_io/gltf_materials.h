@@ -33,10 +33,13 @@ class GltfMaterials {
 
  private:
   void readMaterial(const nlohmann::json& object, int index);
+  Rgb readEmission(const nlohmann::json& object, const std::string& place);
   int readTexture(std::int64_t texture);
   Result<scene::Texture> readImage(std::int64_t image) const;
   /// Mean of a channel of a texture, for factors that Lambent keeps per material: 1 if unreadable.
   double meanOfChannel(const nlohmann::json* textureInfo, int channel);
+  /// Mean of an sRGB texture in linear RGB: white if unreadable.
+  Rgb meanColor(const nlohmann::json* textureInfo);
 
   const GltfFile& file_;
   scene::Scene& scene_;

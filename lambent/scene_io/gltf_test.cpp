@@ -69,6 +69,7 @@ scene::Scene richScene() {
   mixed.lobeExponent = 37.25f;
   mixed.baseColorTexture = 0;
   mixed.doubleSided = true;
+  mixed.emission = Rgb(0.75f, 0.5f, 0.125f);
   scene::addTo(s, scene::uvSphere(1.0f, 12, 8), mixed);
   scene::Material mirror;
   mirror.diffuse = Rgb::Zero();
@@ -115,6 +116,7 @@ TEST(Gltf, WhatIsWrittenIsReadToTheBit) {
     EXPECT_TRUE((t.materials[i].glossy == s.materials[i].glossy).all());
     EXPECT_TRUE((t.materials[i].mirror == s.materials[i].mirror).all());
     EXPECT_EQ(t.materials[i].lobeExponent, s.materials[i].lobeExponent);
+    EXPECT_TRUE((t.materials[i].emission == s.materials[i].emission).all());
     EXPECT_EQ(t.materials[i].baseColorTexture, s.materials[i].baseColorTexture);
     EXPECT_EQ(t.materials[i].doubleSided, s.materials[i].doubleSided);
   }
@@ -161,6 +163,30 @@ TEST(Gltf, MetallicRoughness) {
   for (double e : {1.0, 4.0, 16.0, 64.0, 1000.0}) {
     EXPECT_NEAR(lobeExponentFromRoughness(roughnessFromLobeExponent(e)), e, 1e-4 * e);
   }
+}
+
+TEST(Gltf, BrightEmissionGoesIntoTheStrength) {
+  const TemporaryFolder folder;
+  scene::Material lamp;
+  lamp.emission = Rgb(40, 20, 0);
+  ASSERT_TRUE(saveGlb(scene::sceneOf(scene::icosphere(1, 1), lamp), folder / "lamp.glb"));
+  EXPECT_NE(contentOf(folder / "lamp.glb").find("KHR_materials_emissive_strength"),
+            std::string::npos);
+  const auto lit = load(folder / "lamp.glb");
+  ASSERT_TRUE(lit) << lit.error().message;
+  EXPECT_TRUE(lit->scene.materials[0].emission.isApprox(Rgb(40, 20, 0), 1e-6f));
+  EXPECT_TRUE(lit->findings.empty());
+
+  // A strength without a factor emits nothing; a factor alone is what it is.
+  Document d;
+  d.positions(kTriangle);
+  d.j["materials"] = json::parse(R"([{"extensions": {"KHR_materials_emissive_strength":
+      {"emissiveStrength": 5}}}, {"emissiveFactor": [0.5, 0, 0]}])");
+  d.primitive()["material"] = 1;
+  const auto plain = load(d.write(folder));
+  ASSERT_TRUE(plain) << plain.error().message;
+  EXPECT_FALSE(plain->scene.materials[0].isEmitter());
+  EXPECT_TRUE(plain->scene.materials[1].emission.isApprox(Rgb(0.5f, 0, 0)));
 }
 
 TEST(Gltf, NodeTransformsAndInstances) {

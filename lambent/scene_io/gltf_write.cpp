@@ -73,6 +73,7 @@ struct GltfBuilder::Impl {
   std::vector<std::byte> binary;
 
   void addMaterial(const scene::Material& material);
+  void use(const char* key, std::string_view extension);
   Json camera(const scene::Camera& camera, float diagonal);
 };
 
@@ -88,8 +89,23 @@ void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
   Json object = {{"pbrMetallicRoughness", std::move(metallicRoughness)},
                  {"extras", extrasOf(material)}};
   if (material.doubleSided) object["doubleSided"] = true;
+  if (material.isEmitter()) {
+    // A factor is at most 1; what is brighter goes into the strength.
+    const float strength = std::max(material.emission.maxCoeff(), 1.0f);
+    const Rgb factor = material.emission / strength;
+    object["emissiveFactor"] = {factor.x(), factor.y(), factor.z()};
+    if (strength > 1.0f) {
+      object["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+      use("extensionsUsed", "KHR_materials_emissive_strength");
+    }
+  }
   setName(object, material.name);
   append(document, "materials", std::move(object));
+}
+
+void GltfBuilder::Impl::use(const char* key, std::string_view extension) {
+  Json& list = document[key];
+  if (std::find(list.begin(), list.end(), extension) == list.end()) list.push_back(extension);
 }
 
 Json GltfBuilder::Impl::camera(const scene::Camera& camera, float diagonal) {
@@ -223,12 +239,8 @@ int GltfBuilder::addAccessor(std::span<const std::byte> bytes, Component compone
 }
 
 void GltfBuilder::useExtension(std::string_view name, bool required) {
-  const auto addTo = [&](const char* key) {
-    Json& list = impl_->document[key];
-    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
-  };
-  addTo("extensionsUsed");
-  if (required) addTo("extensionsRequired");
+  impl_->use("extensionsUsed", name);
+  if (required) impl_->use("extensionsRequired", name);
 }
 
 Result<std::vector<std::byte>> GltfBuilder::glb() const {

@@ -302,6 +302,18 @@ void Bake::tell(const HitCounts& counts, Findings& findings) {
                         counts.inside});
 }
 
+void tellOfEmitters(const scene::Scene& scene, Findings& findings) {
+  const auto emitters = std::count_if(
+      scene.meshes.begin(), scene.meshes.end(),
+      [&](const scene::Mesh& mesh) { return scene.materials[mesh.material].isEmitter(); });
+  if (emitters > 0)
+    findings.push_back({Severity::Warning, "emission-left-out",
+                        std::to_string(emitters) +
+                            " meshes emit light. A bake holds how surfaces answer to light from "
+                            "far away, so what they emit is left out; they still block and reflect",
+                        std::uint64_t(emitters)});
+}
+
 TransferField Bake::finish() const {
   const BakeOptions& options = s_.options;
   TransferField field;
@@ -366,6 +378,7 @@ Result<TransferField> bake(const scene::Scene& scene, const trace::RayScene& ray
                               channelsFor(scene, *receivers, options.kind));
   Bake bake(simulation, progress);
   if (Status done = bake.run(findings); !done) return done.error();
+  tellOfEmitters(scene, findings);
   return bake.finish();
 }
 

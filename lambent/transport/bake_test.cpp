@@ -96,6 +96,18 @@ TEST(Bake, SeedsGiveIndependentErrorsOfTheSameSize) {
   EXPECT_LT(std::sqrt(difference / size), 0.05);
 }
 
+TEST(Bake, LeavesEmissionOutAndSaysSo) {
+  scene::Scene glowing = mixedScene();
+  glowing.materials[std::size_t(glowing.meshes[0].material)].emission = Rgb(5, 5, 5);
+  Findings without, with;
+  const auto dark = bakeScene(mixedScene(), small(), without);
+  const auto bright = bakeScene(glowing, small(), with);
+  ASSERT_TRUE(dark && bright);
+  expectSameNumbers(*dark, *bright);
+  ASSERT_EQ(with.size(), without.size() + 1);
+  EXPECT_EQ(with.back().code, "emission-left-out");
+}
+
 TEST(Bake, ARedWallBleedsRed) {
   Findings findings;
   const auto field = bakeScene(mixedScene(), small(), findings);
