@@ -9,6 +9,10 @@
 #include "lambent/report/result.h"
 #include "lambent/sh/coefficients.h"
 
+namespace CLI {
+class Option;
+}
+
 namespace lambent::tool {
 
 struct LightArguments {
@@ -16,7 +20,8 @@ struct LightArguments {
   double rotateY = 0.0;  ///< degrees, right-handed about +y
   std::string window = "none";
 
-  void addTo(CLI::App& app, bool positional);
+  /// Returns the option of the source, which is required.
+  CLI::Option* addTo(CLI::App& app, bool positional);
   void addWindowTo(CLI::App& app);
   Result<light::Environment> environment(Console& console) const;
   /// The environment in n bands, windowed.

@@ -13,6 +13,7 @@
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/scene_arguments.h"
+#include "apps/lambent/state_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/image/io.h"
 #include "lambent/reference/path_tracer.h"
@@ -25,6 +26,7 @@ namespace {
 struct Arguments {
   SceneArguments scene;
   LightArguments light;
+  StateArguments state;
   std::filesystem::path output;
   ViewArguments view;
   DevelopmentArguments development;
@@ -32,6 +34,9 @@ struct Arguments {
   std::string transfer = "interreflected";
   int bands = 0;
   std::optional<Vec3> eye;
+  const CLI::App* app = nullptr;
+
+  bool given(const char* option) const { return app->count(option) > 0; }
 };
 
 constexpr std::string_view kExamples = R"(
@@ -41,6 +46,8 @@ Examples:
   lambent reference bunny.glb --light sky.exr -o truth.exr --bands 5
       The light cut to the 5 bands that a bake of 5 bands sees: what then differs from
       'lambent render' is the error of the bake, not of the light.
+  lambent reference bunny.obj --view state.json -o truth.exr --bands 5
+      What was set up in 'lambent view' and saved there: light and camera as the object sees them.
   lambent reference bunny.obj --light sky.exr --bands 5 -o truth.csv --spp 1024
       The truth at every vertex, to compare with what 'lambent shade' writes.
 )";
@@ -109,21 +116,60 @@ Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
   return Status::ok();
 }
 
+/// What the state says where no flag does: the material's lobe, and which transport there is.
+void take(const view::ViewState& state, Arguments& arguments) {
+  if (!arguments.given("--lobe")) arguments.scene.lobeExponent = state.lobe;
+  if (!arguments.given("--transfer") && state.transfer != shade::TransferChoice::Best)
+    arguments.transfer = std::string(shade::nameOf(state.transfer));
+  arguments.view.background = arguments.view.background || state.background;
+}
+
+/// Camera and light in the scene's own frame. With --bands, the light's radiance is that of so many
+/// bands, windowed.
+Result<Shot> shotOf(const Arguments& arguments, const std::optional<view::ViewState>& state,
+                    const scene::Scene& scene, Console& console) {
+  Result<Shot> shot = failed("");
+  if (state) {
+    shot = tool::shotOf(*state, arguments.view, scene, std::max(arguments.bands, 1), console);
+    if (!shot) return shot;
+  } else {
+    const auto environment = arguments.light.environment(console);
+    if (!environment) return environment.error();
+    sh::RgbCoefficients light;
+    if (arguments.bands > 0) {
+      const auto projected = arguments.light.coefficients(*environment, arguments.bands, console);
+      if (!projected) return projected.error();
+      light = *projected;
+    }
+    scene::Camera camera;
+    if (!asksForReceivers(arguments.output)) {
+      const auto chosen = arguments.view.choose(scene);
+      if (!chosen) return chosen.error();
+      camera = *chosen;
+    }
+    shot = Shot{*environment, light, camera};
+  }
+  if (arguments.bands > 0) shot->environment = light::Environment::harmonics(shot->light);
+  return shot;
+}
+
 Status runReference(Arguments arguments, Console& console) {
   Status writable =
       checkOutput(arguments.output, {".exr", ".png", ".csv", ".ply"}, arguments.scene.path);
   if (!writable) return writable;
+  std::optional<view::ViewState> state;
+  if (arguments.state.given()) {
+    const auto read = arguments.state.read(*arguments.app, arguments.light, arguments.view,
+                                           arguments.development);
+    if (!read) return read.error();
+    take(*(state = *read), arguments);
+  }
+  if (arguments.bands == 0 && arguments.light.window != "none")
+    return badUsage("--window softens the bands of a light: give --bands too");
   const auto scene = arguments.scene.load(console);
   if (!scene) return scene.error();
-  auto environment = arguments.light.environment(console);
-  if (!environment) return environment.error();
-  if (arguments.bands > 0) {
-    const auto light = arguments.light.coefficients(*environment, arguments.bands, console);
-    if (!light) return light.error();
-    environment = light::Environment::harmonics(*light);
-  } else if (arguments.light.window != "none") {
-    return badUsage("--window softens the bands of a light: give --bands too");
-  }
+  const auto shot = shotOf(arguments, state, *scene, console);
+  if (!shot) return shot.error();
   const auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene); });
   if (!rays) return rays.error();
 
@@ -133,12 +179,11 @@ Status runReference(Arguments arguments, Console& console) {
   options.background = arguments.view.background;
   options.threads = console.options().threads;
   if (asksForReceivers(arguments.output))
-    return traceReceivers(arguments, *scene, *rays, *environment, console);
-  const auto camera = arguments.view.choose(*scene);
-  if (!camera) return camera.error();
+    return traceReceivers(arguments, *scene, *rays, shot->environment, console);
   const auto began = std::chrono::steady_clock::now();
-  auto picture = reference::picture(*scene, *rays, *environment, *camera, arguments.view.size.width,
-                                    arguments.view.size.height, options, console.progress());
+  auto picture =
+      reference::picture(*scene, *rays, shot->environment, shot->camera, arguments.view.size.width,
+                         arguments.view.size.height, options, console.progress());
   if (!picture) return picture.error();
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -176,10 +221,11 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app =
       root.add_subcommand("reference", "Path-trace the scene: the truth to compare with");
+  arguments->app = app;
   app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
   arguments->scene.addTo(*app);
-  arguments->light.addTo(*app, false);
+  arguments->state.addTo(*app, arguments->light.addTo(*app, false));
   app->add_option(
          "-o,--output", arguments->output,
          "The picture: .exr for linear radiance with a layer of variance, or .png; or .csv or .ply "

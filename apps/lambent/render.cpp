@@ -12,11 +12,14 @@
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/picture_arguments.h"
+#include "apps/lambent/state_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
 #include "lambent/image/io.h"
 #include "lambent/render/gl_picture.h"
 #include "lambent/shade/picture.h"
+#include "lambent/shade/transfer_choice.h"
+#include "lambent/view/placement.h"
 
 namespace lambent::tool {
 
@@ -25,12 +28,16 @@ namespace {
 struct Arguments {
   std::filesystem::path asset, output;
   LightArguments light;
+  StateArguments state;
   ViewArguments view;
   DevelopmentArguments development;
   std::string backend = "gl";
   int samples = 16;
   std::optional<double> lobeExponent;
   BiScaleArguments biScale;
+  const CLI::App* app = nullptr;
+
+  bool given(const char* option) const { return app->count(option) > 0; }
 };
 
 constexpr std::string_view kExamples = R"(
@@ -40,22 +47,14 @@ Examples:
   lambent render bunny.glb --light disc:45,30,20 -o bunny.png --window minimal --exposure 1.5
   lambent render bunny.glb --light sky.exr -o bunny.exr --backend cpu
       Linear radiance, to measure or to compare.
+  lambent render bunny.glb --view state.json -o bunny.png --samples 64
+      What was set up in 'lambent view' and saved there, as a smoother picture.
   lambent render bird.glb --light sky.exr -o flat.png --macro shadowed --view-dependence off
       A surface with meso-structure, without light that its shape bounces, and pasted on.
 )";
 
-Status runRender(const Arguments& arguments, Console& console) {
-  Status writable = checkOutput(arguments.output, {".png", ".exr"}, arguments.asset);
-  if (!writable) return writable;
-  const auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
-  if (!asset) return asset.error();
-  const auto environment = arguments.light.environment(console);
-  if (!environment) return environment.error();
-  const auto light = arguments.light.coefficients(*environment, asset->transfer.bands, console);
-  if (!light) return light.error();
-  const auto camera = arguments.view.choose(asset->scene);
-  if (!camera) return camera.error();
-
+/// What the flags say about a picture.
+shade::PictureOptions pictureOptions(const Arguments& arguments) {
   shade::PictureOptions options;
   options.width = arguments.view.size.width;
   options.height = arguments.view.size.height;
@@ -63,9 +62,65 @@ Status runRender(const Arguments& arguments, Console& console) {
   options.background = arguments.view.background;
   if (arguments.lobeExponent) options.lobeExponent = float(*arguments.lobeExponent);
   options.biScale = arguments.biScale.options();
+  return options;
+}
+
+/// What a state says about it, where no flag says otherwise.
+shade::PictureOptions pictureOptions(const Arguments& arguments, const view::ViewState& state) {
+  const shade::PictureOptions told = pictureOptions(arguments);
+  shade::PictureOptions options = view::pictureOptions(state, told.width, told.height);
+  if (arguments.given("--samples")) options.samples = told.samples;
+  if (arguments.given("--lobe")) options.lobeExponent = told.lobeExponent;
+  if (arguments.given("--macro")) options.biScale.macro = told.biScale.macro;
+  if (arguments.given("--view-dependence"))
+    options.biScale.viewDependent = told.biScale.viewDependent;
+  options.biScale.filter = told.biScale.filter;
+  return options;
+}
+
+/// The transfer of a choice in the place of what is stored.
+void chooseTransfer(asset::Asset& asset, shade::TransferChoice choice) {
+  std::vector<std::pair<std::uint32_t, encode::EncodedMesh>> chosen;
+  for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m)
+    if (!shade::isStored(asset, m, choice))
+      chosen.emplace_back(m, shade::chosenTransfer(asset, m, choice));
+  for (auto& [m, transfer] : chosen) asset.transfer.meshes[m] = std::move(transfer);
+}
+
+Result<Shot> shotOf(const Arguments& arguments, const asset::Asset& asset, Console& console) {
+  const auto environment = arguments.light.environment(console);
+  if (!environment) return environment.error();
+  const auto light = arguments.light.coefficients(*environment, asset.transfer.bands, console);
+  if (!light) return light.error();
+  const auto camera = arguments.view.choose(asset.scene);
+  if (!camera) return camera.error();
+  return Shot{*environment, *light, *camera};
+}
+
+Status runRender(Arguments arguments, Console& console) {
+  Status writable = checkOutput(arguments.output, {".png", ".exr"}, arguments.asset);
+  if (!writable) return writable;
+  std::optional<view::ViewState> state;
+  if (arguments.state.given()) {
+    const auto read = arguments.state.read(*arguments.app, arguments.light, arguments.view,
+                                           arguments.development);
+    if (!read) return read.error();
+    state = *read;
+  }
+  auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
+  if (!asset) return asset.error();
+  if (state) chooseTransfer(*asset, state->transfer);
+  const auto shot =
+      state ? tool::shotOf(*state, arguments.view, asset->scene, asset->transfer.bands, console)
+            : shotOf(arguments, *asset, console);
+  if (!shot) return shot.error();
+
+  const shade::PictureOptions options =
+      state ? pictureOptions(arguments, *state) : pictureOptions(arguments);
   const auto backend = arguments.backend == "gl" ? &render::picture : &shade::picture;
   const auto began = std::chrono::steady_clock::now();
-  auto picture = backend(*asset, *light, *environment, *camera, options, console.progress());
+  auto picture =
+      backend(*asset, shot->light, shot->environment, shot->camera, options, console.progress());
   if (!picture) {
     if (arguments.backend == "gl" && picture.error().kind == ErrorKind::Failed)
       return failed(picture.error().message + ". --backend cpu needs no OpenGL");
@@ -75,7 +130,9 @@ Status runRender(const Arguments& arguments, Console& console) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
   const bool linear = extensionOf(arguments.output) == ".exr";
-  const bool exposed = !linear || arguments.development.exposure != "auto";
+  // A state's exposure is for the eye: linear radiance stays as it is, to be compared.
+  const bool exposed =
+      !linear || (arguments.development.exposure != "auto" && arguments.given("--exposure"));
   const float ev = exposed ? arguments.development.exposureFor(*picture) : 0.0f;
   Status status = written(console.stage("write", [&] {
     if (!linear)
@@ -102,12 +159,14 @@ Status runRender(const Arguments& arguments, Console& console) {
 Verb addRender(CLI::App& root, ConsoleOptions& common) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app = root.add_subcommand("render", "Relight an asset and draw a picture");
+  arguments->app = app;
   app->group("Verbs");
   app->footer(std::string(kSourceHelp) + std::string(kExamples));
   app->add_option("ASSET", arguments->asset,
                   "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
       ->required();
-  arguments->light.addTo(*app, false);
+  CLI::Option* light = arguments->light.addTo(*app, false);
+  arguments->state.addTo(*app, light);
   app->add_option("-o,--output", arguments->output,
                   "The picture: .png for the eye, .exr for linear radiance")
       ->option_text("OUT.png|OUT.exr")

@@ -112,6 +112,7 @@ shade::PictureOptions pictureOptions(const ViewState& state, int width, int heig
   options.width = width, options.height = height;
   options.samples = state.samples;
   options.background = state.background;
+  options.transfer = state.transfer;
   if (state.lobe) options.lobeExponent = float(*state.lobe);
   if (!state.macro) options.biScale.macro = shade::MacroTransport::Off;
   options.biScale.viewDependent = state.viewDependent;

@@ -92,6 +92,24 @@ TEST(Placement, EnvironmentAndDiscsTurnIntoTheAssetsFrame) {
   }
 }
 
+TEST(Placement, AStateSaysWhatAPictureIs) {
+  ViewState state;
+  state.transfer = shade::TransferChoice::Shadowed;
+  state.macro = state.background = state.viewDependent = false;
+  state.lobe = 30;
+  state.samples = 9;
+  const shade::PictureOptions options = pictureOptions(state, 30, 20);
+  EXPECT_EQ(options.width, 30);
+  EXPECT_EQ(options.height, 20);
+  EXPECT_EQ(options.samples, 9);
+  EXPECT_EQ(options.transfer, shade::TransferChoice::Shadowed);
+  EXPECT_EQ(options.biScale.macro, shade::MacroTransport::Off);
+  EXPECT_FALSE(options.biScale.viewDependent);
+  EXPECT_FALSE(options.background);
+  EXPECT_EQ(options.lobeExponent, 30.0f);
+  EXPECT_FALSE(pictureOptions({}, 1, 1).biScale.macro);
+}
+
 TEST(Placement, ABoxMovesWithItsCorners) {
   scene::Box box;
   box.extend(Vec3(-1, -2, -3)), box.extend(Vec3(1, 2, 3));

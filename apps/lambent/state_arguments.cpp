@@ -1,0 +1,64 @@
+#include "apps/lambent/state_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "lambent/light/source.h"
+#include "lambent/view/placement.h"
+#include "lambent/view/state_light.h"
+
+namespace lambent::tool {
+
+void StateArguments::addTo(CLI::App& app, CLI::Option* light) {
+  const CLI::Option* view =
+      app.add_option(
+             "--view", path,
+             "What was set up in a viewer and saved there: camera, light, where the object is, "
+             "exposure. Options that are given besides win over it")
+          ->option_text("STATE.json")
+          ->group("View");
+  light->required(false);
+  app.parse_complete_callback([light, view] {
+    if (light->count() == 0 && view->count() == 0)
+      throw CLI::RequiredError("--light SOURCE (or --view STATE.json)");
+  });
+}
+
+Result<view::ViewState> StateArguments::read(const CLI::App& app, const LightArguments& light,
+                                             const ViewArguments& view,
+                                             DevelopmentArguments& development) const {
+  Result<view::ViewState> state = view::readViewState(path);
+  if (!state) return state;
+  if (app.count("--light")) state->environment = light.source;
+  if (app.count("--rotate-y"))
+    state->environmentRotation =
+        view::turned({0, 0, 0, 1}, Vec3d::UnitY(), light.rotateY * kPi / 180.0);
+  if (app.count("--window")) state->window = light.window;
+  if (app.count("--background")) state->background = view.background;
+  if (!app.count("--exposure")) development.exposure = fmt::format("{}", state->exposure);
+  if (!app.count("--tone"))
+    development.tone = state->tone == radiometry::ToneCurve::Linear ? "linear" : "filmic";
+  return state;
+}
+
+Result<Shot> shotOf(const view::ViewState& state, const ViewArguments& view,
+                    const scene::Scene& scene, int bands, Console& console) {
+  scene::Camera camera;
+  if (view.camera.empty()) {
+    camera = view::worldCamera(state, scene, float(view.size.width) / float(view.size.height));
+  } else {
+    const Result<scene::Camera> named = view.choose(scene);
+    if (!named) return named.error();
+    camera = *named;
+  }
+  const auto environment =
+      console.stage("light", [&] { return light::parseSource(state.environment); });
+  if (!environment) return environment.error();
+  return Shot{
+      view::assetEnvironment(state, *environment),
+      console.stage("project", [&] { return view::StateLight(*environment, bands).asset(state); }),
+      view::assetCamera(state, camera)};
+}
+
+}  // namespace lambent::tool

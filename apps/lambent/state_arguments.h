@@ -1,0 +1,40 @@
+// --view STATE.json: a picture of what was set up in a viewer.
+#pragma once
+
+#include <filesystem>
+
+#include "apps/lambent/console.h"
+#include "apps/lambent/light_arguments.h"
+#include "apps/lambent/picture_arguments.h"
+#include "lambent/light/environment.h"
+#include "lambent/report/result.h"
+#include "lambent/scene/camera.h"
+#include "lambent/view/view_state.h"
+
+namespace lambent::tool {
+
+struct StateArguments {
+  std::filesystem::path path;
+
+  /// `light` need then not be given.
+  void addTo(CLI::App& app, CLI::Option* light);
+  bool given() const { return !path.empty(); }
+  /// The file's state. What `app` was told explicitly by the options that these arguments added
+  /// stands in it instead; the development takes the state's exposure and curve where it was told
+  /// none.
+  Result<view::ViewState> read(const CLI::App& app, const LightArguments& light,
+                               const ViewArguments& view, DevelopmentArguments& development) const;
+};
+
+/// A state reduced to the asset's own frame, where a picture is made.
+struct Shot {
+  light::Environment environment;
+  sh::RgbCoefficients light;  ///< windowed
+  scene::Camera camera;
+};
+
+/// `bands`: of the light. A camera that was named on the command line wins over the state's.
+Result<Shot> shotOf(const view::ViewState& state, const ViewArguments& view,
+                    const scene::Scene& scene, int bands, Console& console);
+
+}  // namespace lambent::tool
