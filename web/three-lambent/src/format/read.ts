@@ -44,6 +44,34 @@ function checkVersion(root: Fields): string {
   return version;
 }
 
+/** Numbers of vectors whose shape is known. */
+async function vectorNumbers(
+  fields: Fields,
+  accessors: AccessorReader,
+  receivers: number,
+  bands: number,
+): Promise<Pick<Vectors, "numbers" | "channels">> {
+  const channels = fields.channels("channels");
+  const words = `${receivers} receivers × ${channels} channels × ${bands ** 2} coefficients`;
+  const count = receivers * channels * bands ** 2;
+  return { numbers: await accessors.numbers(fields, count, words, 0), channels };
+}
+
+/** Numbers of matrices whose shape is known. */
+async function matrixNumbers(
+  fields: Fields,
+  accessors: AccessorReader,
+  receivers: number,
+  { outBands, inBands }: Pick<Matrices, "outBands" | "inBands">,
+): Promise<Pick<Matrices, "numbers" | "channels">> {
+  const channels = fields.channels("channels");
+  const words =
+    `${receivers} receivers × ${channels} channels × ${outBands ** 2} rows × ` +
+    `${inBands ** 2} columns`;
+  const count = receivers * channels * outBands ** 2 * inBands ** 2;
+  return { numbers: await accessors.numbers(fields, count, words, 0), channels };
+}
+
 async function readVectors(
   fields: Fields,
   accessors: AccessorReader,
@@ -51,11 +79,9 @@ async function readVectors(
   most: number,
 ): Promise<Vectors> {
   const bands = bandsOf(fields, "bands", most);
-  const channels = fields.channels("channels");
   const albedo = fields.oneOf("albedo", ["included", "baseColor"]);
-  const words = `${receivers} receivers × ${channels} channels × ${bands ** 2} coefficients`;
-  const numbers = await accessors.numbers(fields, receivers * channels * bands ** 2, words, 0);
-  return { numbers, bands, channels, albedoOutside: albedo === "baseColor" };
+  const numbers = await vectorNumbers(fields, accessors, receivers, bands);
+  return { ...numbers, bands, albedoOutside: albedo === "baseColor" };
 }
 
 async function readMatrices(
@@ -66,16 +92,35 @@ async function readMatrices(
 ): Promise<Matrices> {
   const outBands = fields.integer("outBands", 1, kMaxBands);
   const inBands = bandsOf(fields, "inBands", most);
-  const channels = fields.channels("channels");
   const glossy = fields.numbers("glossy", 3) as [number, number, number];
   if (glossy.some((k) => k < 0)) fields.fail("glossy", "is below 0");
   const lobeExponent = fields.number("lobeExponent", 0);
-  const words =
-    `${receivers} receivers × ${channels} channels × ${outBands ** 2} rows × ` +
-    `${inBands ** 2} columns`;
-  const count = receivers * channels * outBands ** 2 * inBands ** 2;
-  const numbers = await accessors.numbers(fields, count, words, 0);
-  return { numbers, outBands, inBands, channels, glossy, lobeExponent };
+  const shape = { outBands, inBands };
+  const numbers = await matrixNumbers(fields, accessors, receivers, shape);
+  return { ...numbers, ...shape, glossy, lobeExponent };
+}
+
+/** The direct light, kept beside what is interreflected (since format version 1.2). */
+async function readShadowed(
+  fields: Fields,
+  accessors: AccessorReader,
+  receivers: number,
+  beside: { vectors: Vectors | null; matrices: Matrices | null },
+): Promise<PrimitiveTransfer["shadowed"]> {
+  for (const key of ["vectors", "matrices"] as const)
+    if (fields.has(key) !== (beside[key] !== null))
+      fields.fail(key, fields.has(key) ? "has none beside it to be shadowed" : "is missing");
+  const { vectors, matrices } = beside;
+  return {
+    vectors: vectors && {
+      ...vectors,
+      ...(await vectorNumbers(fields.object("vectors"), accessors, receivers, vectors.bands)),
+    },
+    matrices: matrices && {
+      ...matrices,
+      ...(await matrixNumbers(fields.object("matrices"), accessors, receivers, matrices)),
+    },
+  };
 }
 
 function bandsOf(fields: Fields, key: string, most: number): number {
@@ -198,19 +243,18 @@ async function readPrimitive(
   if ((grid || biScaleHere) && !attributes.has("TEXCOORD_0"))
     primitive.fail("attributes", "TEXCOORD_0 is missing, which transfer is looked up with");
 
-  const readPair = async (object: Fields) => ({
-    vectors: object.has("vectors")
-      ? await readVectors(object.object("vectors"), accessors, receivers, bands)
+  const pair = {
+    vectors: fields.has("vectors")
+      ? await readVectors(fields.object("vectors"), accessors, receivers, bands)
       : null,
-    matrices: object.has("matrices")
-      ? await readMatrices(object.object("matrices"), accessors, receivers, bands)
+    matrices: fields.has("matrices")
+      ? await readMatrices(fields.object("matrices"), accessors, receivers, bands)
       : null,
-  });
-  const pair = await readPair(fields);
-  // From format version 1.2 on: the direct light, kept beside what is interreflected.
-  const shadowed = fields.has("shadowed") ? await readPair(fields.object("shadowed")) : null;
-  if (shadowed?.matrices && shadowed.matrices.outBands !== pair.matrices?.outBands)
-    fields.fail("shadowed", "its matrices have other bands than those beside it");
+  };
+  const shadowed =
+    fields.has("shadowed") && !biScaleHere
+      ? await readShadowed(fields.object("shadowed"), accessors, receivers, pair)
+      : null;
   let biScale: BiScale | null = null;
   if (biScaleHere) {
     if (layout !== "vertices") fields.fail("biScale", "its receivers must be vertices");

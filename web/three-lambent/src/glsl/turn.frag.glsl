@@ -9,8 +9,7 @@
 uniform sampler2DArray normals;
 uniform sampler2DArray tangents;
 uniform ivec3 frameRows;
-uniform sampler2D solve;  // (k, i): the share of value k in coefficient i
-uniform vec3 directions[2 * LAMBENT_BANDS - 1];
+uniform sampler2D samples;  // (k, i): direction k of the band, and its value's share in coefficient i
 uniform vec3 light[kCoefficients];
 uniform vec4 factors[(LAMBENT_ROWS + 3) / 4];
 uniform int receivers;
@@ -32,10 +31,11 @@ void main() {
   while ((l + 1) * (l + 1) <= i) ++l;
   for (int k = 0; k < 2 * l + 1; ++k) {
     float y[kCoefficients];
-    harmonics(frame * directions[k], y);
+    vec4 from = texelFetch(samples, ivec2(k, i), 0);
+    harmonics(frame * from.xyz, y);
     vec3 value = vec3(0.0);
     for (int m = l * l; m < (l + 1) * (l + 1); ++m) value += light[m] * y[m];
-    lit.rgb += texelFetch(solve, ivec2(k, i), 0).x * value;
+    lit.rgb += from.w * value;
   }
   lit.rgb *= factors[i >> 2][i & 3];
 }

@@ -7,7 +7,7 @@ import {
   NearestFilter,
   NoBlending,
   RawShaderMaterial,
-  RedFormat,
+  RGBAFormat,
   Vector3,
   type DataArrayTexture,
   type WebGLRenderer,
@@ -152,16 +152,16 @@ export class TurnPass implements LightPass {
     this.light = new Float32Array(3 * bands * bands);
     const samples = turnSamples(bands);
     const frames = [normals, tangents].map((data) => textureOfRows(data, 3, what));
-    const solve = new DataTexture(
-      samples.solve as Float32Array<ArrayBuffer>,
+    const turn = new DataTexture(
+      samples.texels as Float32Array<ArrayBuffer>,
       samples.width,
       bands * bands,
-      RedFormat,
+      RGBAFormat,
       FloatType,
     );
-    solve.minFilter = solve.magFilter = NearestFilter;
-    solve.needsUpdate = true;
-    this.textures.push(frames[0].texture, frames[1].texture, solve);
+    turn.minFilter = turn.magFilter = NearestFilter;
+    turn.needsUpdate = true;
+    this.textures.push(frames[0].texture, frames[1].texture, turn);
     this.material = passMaterial(
       `#define LAMBENT_ROWS ${lit.rows}
 #define LAMBENT_BANDS ${bands}
@@ -170,8 +170,7 @@ ${sh}${rowPlace}${tangentFrame}${turnFrag}`,
         normals: { value: frames[0].texture },
         tangents: { value: frames[1].texture },
         frameRows: { value: layoutUniform(frames[0].layout) },
-        solve: { value: solve },
-        directions: { value: samples.directions },
+        samples: { value: turn },
         light: { value: this.light },
         factors: { value: null },
         receivers: { value: lit.receivers },
