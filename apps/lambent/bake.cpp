@@ -35,6 +35,8 @@ constexpr std::string_view kExamples = R"(Examples:
       A quick look.
   lambent bake teapot.glb -o teapot.glb --material glossy --lobe 64 --bands 7
       As if everything were polished: a transfer matrix at every vertex.
+  lambent bake ring.obj -o ring.glb --keep-shadowed
+      One asset that can be shown with shadows alone, and with bounces.
   lambent bake bunny.obj -o standing.glb --ground --albedo 0.7,0.6,0.5
       On a floor that takes its shadow.
   lambent bake ring.gltf -o ring.glb --texels ground=256x256
@@ -76,6 +78,7 @@ Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::s
 Status runBake(BakeArguments arguments, Console& console) {
   Status writable = checkOutput(arguments.output, {".glb"}, arguments.scene.path);
   if (!writable) return writable;
+  if (Status sane = arguments.transfer.check(); !sane) return sane;
   auto scene = arguments.scene.load(console);
   if (!scene) return scene.error();
 

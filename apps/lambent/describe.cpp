@@ -219,21 +219,35 @@ Description describe(const encode::EncodedField& transfer, const scene::Scene& s
       what += fmt::format(", matrices {}x{}x{}, lobe exponent {:.4g}", mesh.matrixChannels,
                           mesh.outBands * mesh.outBands, mesh.inBands * mesh.inBands,
                           mesh.lobeExponent);
+    if (!mesh.shadowed.empty()) {
+      what += ", shadowed beside:";
+      if (!mesh.shadowed.vectors.empty())
+        what += fmt::format(" vectors {}x{}", mesh.shadowed.channels, mesh.bands * mesh.bands);
+      if (!mesh.shadowed.matrices.empty())
+        what += fmt::format("{} matrices {}x{}x{}", mesh.shadowed.vectors.empty() ? "" : ",",
+                            mesh.shadowed.matrixChannels, mesh.outBands * mesh.outBands,
+                            mesh.inBands * mesh.inBands);
+    }
     const std::string where = mesh.layout == transport::Layout::Texels
                                   ? fmt::format("{}x{} texels", mesh.width, mesh.height)
                                   : fmt::format("{} vertices", formatCount(mesh.receiverCount()));
     d.text += fmt::format("  {}: {}{}, {}\n", called, where, what, nameOf(any.encoding));
-    meshes.push_back({{"name", name},
-                      {"layout", nameOf(mesh.layout)},
-                      {"receivers", mesh.receiverCount()},
-                      {"width", mesh.width},
-                      {"height", mesh.height},
-                      {"encoding", nameOf(any.encoding)},
-                      {"vector_bands", mesh.vectors.empty() ? 0 : mesh.bands},
-                      {"vector_channels", mesh.vectors.empty() ? 0 : mesh.channels},
-                      {"matrix_out_bands", mesh.matrices.empty() ? 0 : mesh.outBands},
-                      {"matrix_in_bands", mesh.matrices.empty() ? 0 : mesh.inBands},
-                      {"matrix_channels", mesh.matrices.empty() ? 0 : mesh.matrixChannels}});
+    meshes.push_back(
+        {{"name", name},
+         {"layout", nameOf(mesh.layout)},
+         {"receivers", mesh.receiverCount()},
+         {"width", mesh.width},
+         {"height", mesh.height},
+         {"encoding", nameOf(any.encoding)},
+         {"vector_bands", mesh.vectors.empty() ? 0 : mesh.bands},
+         {"vector_channels", mesh.vectors.empty() ? 0 : mesh.channels},
+         {"matrix_out_bands", mesh.matrices.empty() ? 0 : mesh.outBands},
+         {"matrix_in_bands", mesh.matrices.empty() ? 0 : mesh.inBands},
+         {"matrix_channels", mesh.matrices.empty() ? 0 : mesh.matrixChannels},
+         {"shadowed", !mesh.shadowed.empty()},
+         {"shadowed_vector_channels", mesh.shadowed.vectors.empty() ? 0 : mesh.shadowed.channels},
+         {"shadowed_matrix_channels",
+          mesh.shadowed.matrices.empty() ? 0 : mesh.shadowed.matrixChannels}});
   }
   Json rtts = Json::array();
   for (const encode::EncodedRtt& rtt : transfer.rtts) {

@@ -8,6 +8,7 @@
 
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/bi_scale_arguments.h"
+#include "apps/lambent/choice_arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
@@ -18,7 +19,6 @@
 #include "lambent/image/io.h"
 #include "lambent/render/gl_picture.h"
 #include "lambent/shade/picture.h"
-#include "lambent/shade/transfer_choice.h"
 #include "lambent/view/placement.h"
 
 namespace lambent::tool {
@@ -34,6 +34,7 @@ struct Arguments {
   std::string backend = "gl";
   int samples = 16;
   std::optional<double> lobeExponent;
+  ChoiceArguments choice;
   BiScaleArguments biScale;
   const CLI::App* app = nullptr;
 
@@ -61,6 +62,7 @@ shade::PictureOptions pictureOptions(const Arguments& arguments) {
   options.samples = arguments.samples;
   options.background = arguments.view.background;
   if (arguments.lobeExponent) options.lobeExponent = float(*arguments.lobeExponent);
+  options.transfer = arguments.choice.choice();
   options.biScale = arguments.biScale.options();
   return options;
 }
@@ -71,20 +73,12 @@ shade::PictureOptions pictureOptions(const Arguments& arguments, const view::Vie
   shade::PictureOptions options = view::pictureOptions(state, told.width, told.height);
   if (arguments.given("--samples")) options.samples = told.samples;
   if (arguments.given("--lobe")) options.lobeExponent = told.lobeExponent;
+  if (arguments.given("--transfer")) options.transfer = told.transfer;
   if (arguments.given("--macro")) options.biScale.macro = told.biScale.macro;
   if (arguments.given("--view-dependence"))
     options.biScale.viewDependent = told.biScale.viewDependent;
   options.biScale.filter = told.biScale.filter;
   return options;
-}
-
-/// The transfer of a choice in the place of what is stored.
-void chooseTransfer(asset::Asset& asset, shade::TransferChoice choice) {
-  std::vector<std::pair<std::uint32_t, encode::EncodedMesh>> chosen;
-  for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m)
-    if (!shade::isStored(asset, m, choice))
-      chosen.emplace_back(m, shade::chosenTransfer(asset, m, choice));
-  for (auto& [m, transfer] : chosen) asset.transfer.meshes[m] = std::move(transfer);
 }
 
 Result<Shot> shotOf(const Arguments& arguments, const asset::Asset& asset, Console& console) {
@@ -107,9 +101,8 @@ Status runRender(Arguments arguments, Console& console) {
     if (!read) return read.error();
     state = *read;
   }
-  auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
+  const auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
   if (!asset) return asset.error();
-  if (state) chooseTransfer(*asset, state->transfer);
   const auto shot =
       state ? tool::shotOf(*state, arguments.view, asset->scene, asset->transfer.bands, console)
             : shotOf(arguments, *asset, console);
@@ -117,6 +110,7 @@ Status runRender(Arguments arguments, Console& console) {
 
   const shade::PictureOptions options =
       state ? pictureOptions(arguments, *state) : pictureOptions(arguments);
+  if (Status s = checkHeld(*asset, options.transfer, arguments.asset); !s) return s;
   const auto backend = arguments.backend == "gl" ? &render::picture : &shade::picture;
   const auto began = std::chrono::steady_clock::now();
   auto picture =
@@ -187,6 +181,7 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
       ->check(CLI::Range(0.0, 1e5))
       ->option_text("EXPONENT")
       ->group("Picture");
+  arguments->choice.addTo(*app);
   arguments->biScale.addTo(*app);
   arguments->biScale.addFilterTo(*app);
   arguments->development.addTo(*app);

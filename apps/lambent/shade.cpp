@@ -9,6 +9,7 @@
 
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/bi_scale_arguments.h"
+#include "apps/lambent/choice_arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
@@ -26,6 +27,7 @@ struct Arguments {
   LightArguments light;
   std::optional<Vec3> eye;
   std::optional<double> lobeExponent;
+  ChoiceArguments choice;
   BiScaleArguments biScale;
 };
 
@@ -52,6 +54,8 @@ Status runShade(const Arguments& arguments, Console& console) {
   shade::View view;
   view.eye = arguments.eye;
   if (arguments.lobeExponent) view.lobeExponent = float(*arguments.lobeExponent);
+  view.transfer = arguments.choice.choice();
+  if (Status s = checkHeld(*asset, view.transfer, arguments.asset); !s) return s;
   view.biScale = arguments.biScale.options();
   if (Status s = shade::checkBiScale(*asset, view.biScale); !s) return s;
   const ReceiverFile file = console.stage("shade", [&] {
@@ -108,6 +112,7 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
       ->check(CLI::Range(0.0, 1e5))
       ->option_text("EXPONENT")
       ->group("View");
+  arguments->choice.addTo(*app);
   arguments->biScale.addTo(*app);
   arguments->light.addWindowTo(*app);
   addCommonOptions(*app, common);

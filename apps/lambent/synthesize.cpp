@@ -111,6 +111,7 @@ Json asJson(const bi_scale::SpreadReport& r) {
 Status run(Arguments arguments, Console& console) {
   Status writable = checkOutput(arguments.output, {".glb"}, arguments.scene.path);
   if (!writable) return writable;
+  if (Status sane = arguments.transfer.check(); !sane) return sane;
   if (!arguments.atlasPicture.empty()) {
     writable = checkOutput(arguments.atlasPicture, {".png"}, arguments.scene.path);
     if (!writable) return writable;
@@ -266,10 +267,6 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("OUT.png")
       ->group("Atlas");
   arguments->transfer.addTo(*app);
-  app->add_flag("--keep-shadowed", arguments->transfer.options.keepShadowed,
-                "Keep the matrices without interreflection too, so that 'render --macro shadowed' "
-                "can show them")
-      ->group("Transfer");
   app->add_option("--encoding", arguments->encoding,
                   "Of the matrices: snorm8 (a byte, and a scale for each matrix), float16, float32")
       ->check(CLI::IsMember({"snorm8", "float16", "float32"}))

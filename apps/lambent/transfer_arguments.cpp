@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/lambent/arguments.h"
+
 namespace lambent::tool {
 
 void TransferArguments::addTo(CLI::App& app) {
@@ -10,6 +12,10 @@ void TransferArguments::addTo(CLI::App& app) {
       ->check(CLI::IsMember({"unshadowed", "shadowed", "interreflected"}))
       ->option_text("KIND")
       ->capture_default_str()
+      ->group("Transfer");
+  app.add_flag("--keep-shadowed", options.keepShadowed,
+               "Keep what is shadowed alone beside what is interreflected, so that 'render "
+               "--transfer shadowed' and the viewers can show either. A larger asset")
       ->group("Transfer");
   app.add_option("--directions", options.directions,
                  "Directions over the whole sphere, the same for every receiver. Twice as many: "
@@ -40,6 +46,14 @@ void TransferArguments::addTo(CLI::App& app) {
       ->option_text("SIZE")
       ->default_str("3GiB")
       ->group("Output");
+}
+
+Status TransferArguments::check() const {
+  if (options.keepShadowed && transfer != "interreflected")
+    return badUsage(
+        "--keep-shadowed keeps shadowed transfer beside interreflected: with --transfer " +
+        transfer + " there is nothing to keep it beside");
+  return Status::ok();
 }
 
 transport::BakeOptions TransferArguments::chosen(const Console& console) const {

@@ -12,8 +12,11 @@ struct TransferArguments {
   transport::BakeOptions options;
   std::string transfer = "interreflected";
 
-  /// --transfer, --directions, --bounces, --energy-threshold, --seed, --hit-memory.
+  /// --transfer, --keep-shadowed, --directions, --bounces, --energy-threshold, --seed,
+  /// --hit-memory.
   void addTo(CLI::App& app);
+  /// BadUsage where the options contradict each other.
+  Status check() const;
   /// The options, with the kind and the threads that were asked for.
   transport::BakeOptions chosen(const Console& console) const;
 };
