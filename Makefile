@@ -7,8 +7,8 @@ ASAN_ROOMS ?= file math radiometry sh image scene scene_io encode asset light sy
 
 $(shell mkdir -p build)
 
-.PHONY: all help setup inputs configure build everything test demo figures bench install asan tsan format \
-        check-format check clean
+.PHONY: all help setup setup-tests inputs configure build everything test demo figures screenshots bench \
+        install asan tsan format check-format check clean
 
 all: build
 
@@ -18,6 +18,7 @@ help:
 	@echo 'make test                build and run every test'
 	@echo 'make bench               measure; CSV files under bench/results/'
 	@echo 'make figures             the pictures of docs/reproduction.md (FIGURES="figure3 table1": only those)'
+	@echo 'make screenshots         the viewers as they look, into docs/images'
 	@echo 'make install PREFIX=DIR  DIR/bin/lambent, the library and its CMake package'
 	@echo 'make asan | tsan         tests under sanitizers'
 	@echo 'make check               formatting, rooms, references'
@@ -25,6 +26,9 @@ help:
 
 setup:
 	@tools/setup.sh
+
+setup-tests:
+	@tools/setup.sh tests
 
 inputs: setup
 	@tools/fetch-inputs.sh
@@ -39,7 +43,7 @@ build: configure
 everything: configure
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
-test: everything inputs
+test: setup-tests everything inputs
 	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure
 
 demo: build inputs
@@ -50,7 +54,10 @@ figures: build
 	@cmake --build $(BUILD) --parallel $(JOBS) --target lambent_figures
 	@$(BUILD)/figures/lambent_figures build/inputs docs/images $(FIGURES)
 
-bench: everything
+screenshots: setup-tests everything inputs
+	@tools/screenshots.sh $(BUILD)
+
+bench: setup-tests everything
 	@tools/fetch-inputs.sh all
 	@bench/run.sh $(BUILD)
 

@@ -1,16 +1,19 @@
 #!/usr/bin/env bash
 # Installs what Lambent needs on Debian 12. Quick when all is there; needs root or sudo only when
-# something is missing. tools/packages.txt is the list.
+# something is missing. tools/packages.txt is the list; with "tests", tools/test-packages.txt too.
+# usage: tools/setup.sh [tests]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 installed() { dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null | grep -qx installed; }
 
+lists=(tools/packages.txt)
+if [ "${1:-}" = tests ]; then lists+=(tools/test-packages.txt); fi
 missing=()
 while read -r package; do
   case $package in '' | '#'*) continue ;; esac
   installed "$package" || missing+=("$package")
-done < tools/packages.txt
+done < <(cat "${lists[@]}")
 # Node from any source will do; Debian's only where there is none.
 command -v node > /dev/null || missing+=(nodejs)
 command -v npm > /dev/null || missing+=(npm)
