@@ -5,6 +5,8 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
+import { Quaternion, Vector3 } from "three";
+import { LambentLight } from "../dist/index.js";
 import { bundle, openPage } from "./support/browser.mjs";
 import {
   ballScene,
@@ -39,6 +41,8 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     bake("matt", "matt-shadowed", "--transfer", "shadowed", "--bands", 4);
     bake("glossy", "glossy");
     bake("glossy", "glossy-float", "--encoding", "float32", "--bands", 4, "--glossy-bands", 6, "--transfer", "shadowed");
+    bake("matt", "matt-unshadowed", "--transfer", "unshadowed");
+    bake("glossy", "glossy-unshadowed", "--transfer", "unshadowed");
     bake("mirror", "mirror");
     bake("texel", "texel", "--texels", "sheet=48x40");
     const patch = ["--positions", "24x20", "--views", 4, "--directions", 128, "--bounces", 1, "--quiet"];
@@ -62,7 +66,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     const truth = `truth-${name}.png`;
     lambent(
       folder, "render", asset, "--light", source, "-o", truth, "--backend", "cpu", "--samples", 1,
-      "--size", kSize, "--background", "--camera", "auto", "--quiet", ...(options.includes("--exposure") ? [] : ["--exposure", 0]), ...options,
+      "--size", kSize, "--camera", "auto", "--quiet", ...(state.background === false ? [] : ["--background"]), ...(options.includes("--exposure") ? [] : ["--exposure", 0]), ...options,
     );
     const found = await browser.page.evaluate((s) => window.compare(s), {
       asset,
@@ -109,6 +113,35 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       }));
   }
 
+  // What an asset shows unshadowed is what was baked so.
+  for (const kind of ["matt", "glossy"])
+    it(`${kind}, unshadowed`, async () => {
+      const state = { asset: `${kind}.glb`, asset_: { transfer: "unshadowed" } };
+      await agree(`${kind}-unshadowed`, `${kind}-unshadowed.glb`, [], state);
+    });
+
+  // About any axis: the tool is given the light that such a turn leaves.
+  for (const kind of ["matt", "glossy", "texel", "patch"])
+    it(`${kind}, turned about a slanted axis`, async () => {
+      const q = new Quaternion(0.4, -0.3, 0.6, 0.5).normalize();
+      const light = new LambentLight(5).add(LambentLight.uniform([0.2, 0.3, 0.4]));
+      light.addDisc({ direction: new Vector3(0.3, 1, 0.6), diameter: 0.9, radiance: [8, 7, 5] });
+      light.addDisc({ direction: new Vector3(-1, 0.2, 0.4), diameter: 1.2, radiance: [0.5, 1, 3] });
+      const written = (name, { coefficients, bands }) => {
+        const rows = Array.from({ length: bands * bands }, (_, i) => [...coefficients.subarray(3 * i, 3 * i + 3)]);
+        writeFileSync(join(folder, name), JSON.stringify({ lambent: "light", bands, coefficients: rows }));
+        return name;
+      };
+      const world = written("world-light.json", light);
+      const turned = written("turned-light.json", light.clone().rotate(q.clone().invert()));
+      await agree(`${kind}-slanted`, `${kind}.glb`, [], {
+        light: world,
+        objectRotation: q.toArray(),
+        objectTranslation: [-2, 5, 1],
+        background: false,
+      }, turned);
+    });
+
   it("linear tone curve, exposure, a disc in mirrors and in the light", () =>
     agree(
       "mirror-disc",
@@ -125,6 +158,166 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       },
       "environment.exr+disc:30,50,40,3/2/1",
     ));
+
+  it("fetches per pixel when told to, and by itself where varyings are few", async () => {
+    const layouts = await browser.page.evaluate(async () => {
+      const found = {};
+      for (const incident of ["auto", "varyings", "fetch"]) {
+        const { userData, scene } = await window.load("glossy.glb", incident);
+        userData.lambent.update(window.renderer);
+        found[incident] = scene.children.map((mesh) => mesh.geometry.hasAttribute("lambentCorners"));
+        userData.lambent.dispose();
+      }
+      const { maxVaryings } = window.renderer.capabilities;
+      window.renderer.capabilities.maxVaryings = 15;
+      const { userData, scene } = await window.load("glossy.glb");
+      userData.lambent.update(window.renderer);
+      found.few = scene.children.map((mesh) => mesh.geometry.hasAttribute("lambentCorners"));
+      userData.lambent.dispose();
+      window.renderer.capabilities.maxVaryings = maxVaryings;
+      return found;
+    });
+    const all = (value) => [value, value, value];
+    assert.deepEqual(layouts, { auto: all(false), varyings: all(false), fetch: all(true), few: all(true) });
+  });
+
+  it("stays an ordinary three object: bounds, picking, finding the asset again", async () => {
+    const found = await browser.page.evaluate(async () => {
+      const { THREE, lambent } = window;
+      const { scene, userData } = await window.load("matt.glb");
+      scene.position.set(10, 0, 0);
+      scene.updateMatrixWorld();
+      const ray = new THREE.Raycaster(new THREE.Vector3(10, 5, 0), new THREE.Vector3(0, -1, 0));
+      const [hit] = ray.intersectObject(scene);
+      const box = new THREE.Box3().setFromObject(scene);
+      const asset = lambent.LambentAsset.of(hit.object);
+      const result = {
+        hit: hit.point.toArray(),
+        name: hit.object.name,
+        same: asset === userData.lambent,
+        middle: box.getCenter(new THREE.Vector3()).x,
+        kinds: [...asset.kinds],
+        offers: ["best", "unshadowed", "shadowed", "interreflected"].map((c) => asset.offers(c)),
+        info: asset.info,
+      };
+      asset.dispose();
+      result.after = lambent.LambentAsset.of(scene) === undefined;
+      return result;
+    });
+    assert.ok(Math.abs(found.hit[1] - 1.4) < 0.01, `${found.hit}`);
+    assert.equal(found.name, "ball");
+    assert.ok(found.same && found.after);
+    assert.ok(Math.abs(found.middle - 10) < 1e-3);
+    assert.deepEqual(found.kinds, ["diffuse"]);
+    assert.deepEqual(found.offers, [true, true, false, true]);
+    assert.equal(found.info.bands, 5);
+  });
+
+  it("relights only when something changed", async () => {
+    const updates = await browser.page.evaluate(async () => {
+      const { lambent, renderer } = window;
+      const { scene, userData } = await window.load("glossy.glb");
+      const asset = userData.lambent;
+      const light = lambent.LambentLight.uniform([1, 1, 1]);
+      asset.setLight(light);
+      const out = [asset.update(renderer), asset.update(renderer)];
+      light.scale(2);
+      out.push(asset.update(renderer), asset.update(renderer));
+      scene.rotation.y = 1;
+      out.push(asset.update(renderer), asset.update(renderer));
+      scene.position.x = 3; // light is far away
+      out.push(asset.update(renderer));
+      asset.lobeExponent = 3;
+      out.push(asset.update(renderer), asset.update(renderer));
+      asset.transfer = "unshadowed";
+      out.push(asset.update(renderer), asset.update(renderer));
+      asset.unlit = true;
+      out.push(asset.update(renderer));
+      asset.unlit = false;
+      out.push(asset.update(renderer));
+      asset.dispose();
+      return out;
+    });
+    const [yes, no] = [true, false];
+    assert.deepEqual(updates, [yes, no, yes, no, yes, no, no, yes, no, yes, no, no, yes]);
+  });
+
+  it("comes back after the context was lost", async () => {
+    const [before, after] = await browser.page.evaluate(async () => {
+      const { THREE, lambent } = window;
+      const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
+      renderer.setSize(64, 64);
+      const { scene, userData } = await window.load("patch.glb");
+      const asset = userData.lambent;
+      asset.setLight(lambent.LambentLight.uniform([1, 1, 1]));
+      const camera = new THREE.PerspectiveCamera();
+      lambent.frameAutomatically(scene, camera, 1);
+      const draw = () => {
+        asset.update(renderer);
+        renderer.render(scene, camera);
+        const gl = renderer.getContext();
+        const bytes = new Uint8Array(4 * 64 * 64);
+        gl.readPixels(0, 0, 64, 64, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+        return bytes.reduce((a, b) => a + b, 0);
+      };
+      const sums = [draw()];
+      const restored = new Promise((done) =>
+        renderer.domElement.addEventListener("webglcontextrestored", () => setTimeout(done, 0)),
+      );
+      renderer.forceContextLoss();
+      await new Promise((done) => setTimeout(done, 50));
+      renderer.forceContextRestore();
+      await restored;
+      sums.push(draw());
+      asset.dispose();
+      renderer.dispose();
+      return sums;
+    });
+    browser.problems(); // three tells of the loss itself
+    assert.ok(before > 64 * 64 * 255, "something was lit");
+    assert.equal(after, before);
+  });
+
+  it("a damaged file is an error of the load, in words", async () => {
+    const messages = await browser.page.evaluate(async () => {
+      const whole = new Uint8Array(await (await fetch("glossy.glb")).arrayBuffer());
+      const found = [];
+      for (const change of [
+        (b) => b.subarray(0, b.length >> 1),
+        (b) => b.subarray(0, 10),
+        (b) => b.fill(0xff, b.length - 5000, b.length),
+      ]) {
+        const url = URL.createObjectURL(new Blob([change(whole.slice())]));
+        found.push(await window.load(url).then(() => "loaded", (error) => String(error.message ?? error)));
+        URL.revokeObjectURL(url);
+      }
+      return found;
+    });
+    assert.match(messages[0], /end of its buffer|Invalid typed array length|out of bounds/i);
+    assert.notEqual(messages[1], "loaded");
+    assert.match(messages[2], /not finite/);
+    browser.problems();
+  });
+
+  it("three's own probe of the environment, made on the GPU, lights as the environment does", async () => {
+    const [own, probe] = await browser.page.evaluate(async () => {
+      const { THREE, lambent, renderer } = window;
+      const map = await window.environmentOf("environment.exr");
+      map.mapping = THREE.EquirectangularReflectionMapping;
+      const cube = new THREE.WebGLCubeRenderTarget(64, { type: THREE.FloatType, magFilter: THREE.NearestFilter, minFilter: THREE.NearestFilter });
+      cube.fromEquirectangularTexture(renderer, map);
+      const { LightProbeGenerator } = await window.probes;
+      const made = await LightProbeGenerator.fromCubeRenderTarget(renderer, cube);
+      const out = [lambent.LambentLight.fromEquirectangular(map, 3), lambent.LambentLight.fromLightProbe(made)];
+      map.dispose();
+      cube.dispose();
+      return out.map((light) => [...light.coefficients]);
+    });
+    const size = Math.hypot(...own);
+    own.forEach((value, i) =>
+      assert.ok(Math.abs(value - probe[i]) < 0.01 * size, `coefficient ${i}: ${probe[i]}, not ${value}`),
+    );
+  });
 
   it("frees what it made", async () => {
     const state = { asset: "patch.glb", truth: "truth-patch.png", size: kSize };

@@ -41,10 +41,10 @@ function shown(size) {
 
 /** Draws what `state` says; returns what is on the canvas, and which pixels the asset covers. */
 async function draw(state) {
-  const { asset: url, size = 256, environment, light: lightUrl, discs = [] } = state;
+  const { size = 256, environment, light: lightUrl, discs = [] } = state;
   renderer.setPixelRatio(1);
   renderer.setSize(size, size);
-  const gltf = await load(url, state.incident);
+  const gltf = await load(state.asset, state.incident);
   const asset = gltf.userData.lambent;
   const scene = new THREE.Scene();
   scene.add(gltf.scene);
@@ -150,4 +150,6 @@ window.THREE = THREE;
 window.lambent = lambent;
 window.load = load;
 window.renderer = renderer;
+window.environmentOf = environmentOf;
+window.probes = import("three/addons/lights/LightProbeGenerator.js");
 window.ready = true;
