@@ -1,0 +1,60 @@
+// What keys and gestures do.
+import { button, h } from "./dom";
+
+const kGestures: [string, string][] = [
+  ["Drag, one finger", "orbit; or turn the object or the light, as chosen below the picture"],
+  ["Ctrl + drag", "turn the object"],
+  ["Alt + drag", "turn the light"],
+  ["Shift or right button + drag, two fingers", "pan"],
+  ["Wheel, pinch", "zoom"],
+  ["Double click, double tap", "frame the object"],
+  ["Drop or open a file", ".glb, .hdr, .exr, .png, a saved view, a light as JSON"],
+];
+const kKeys: [string, string][] = [
+  ["Arrows", "orbit; with Ctrl turn the object, with Alt the light, with Shift pan"],
+  ["+ −", "zoom"],
+  ["F", "frame the object"],
+  ["R", "turn everything back"],
+  ["Space", "let the light go round, or stop it"],
+  ["1 2 3 4", "best, unshadowed, shadowed, interreflected"],
+  ["M", "macro-scale on or off"],
+  ["V", "dependence on the view on or off"],
+  ["E", "next environment"],
+  ["A", "next asset"],
+  ["L", "add a disc of light"],
+  ["[ ]", "exposure down, up"],
+  ["T", "tone curve"],
+  ["B", "background"],
+  ["P", "save the picture"],
+  ["O", "open files"],
+  ["H", "hide the controls, or show them"],
+  ["?", "this help"],
+];
+
+export class Help {
+  readonly element = h("dialog", { class: "help", "aria-label": "Help" });
+
+  constructor() {
+    const table = (rows: [string, string][]) =>
+      h("dl", {}, ...rows.flatMap(([key, what]) => [h("dt", {}, key), h("dd", {}, what)]));
+    this.element.append(
+      h("header", {}, h("h2", {}, "Help"), button("Close", "Close the help", () => this.close())),
+      h("div", { class: "columns" },
+        h("section", {}, h("h3", {}, "On the picture"), table(kGestures)),
+        h("section", {}, h("h3", {}, "Keys"), table(kKeys))),
+      h("p", {},
+        "Files stay in this browser: the page sends nothing anywhere. Assets are baked by " +
+          "lambent bake or lambent synthesize; saved views also go to lambent render --view."),
+    );
+    this.element.addEventListener("click", (event) => {
+      if (event.target === this.element) this.close(); // outside of it
+    });
+  }
+  toggle(): void {
+    if (this.element.open) this.close();
+    else this.element.showModal();
+  }
+  private close(): void {
+    this.element.close();
+  }
+}

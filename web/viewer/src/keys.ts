@@ -1,0 +1,86 @@
+// Keys → what they do; the list in help.ts says the same to people.
+import type { Viewer } from "./viewer";
+import { kTransfers } from "./view_state";
+
+const kStep = 0.07; // radians
+const kPanStep = 30; // pixels
+
+export interface KeyActions {
+  openFiles(): void;
+  savePicture(): void;
+  hide(): void;
+  help(): void;
+}
+
+/** Listens to the whole page, except where a control wants the key for itself. */
+export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
+  const arrows: Record<string, [number, number]> = {
+    ArrowLeft: [-1, 0],
+    ArrowRight: [1, 0],
+    ArrowUp: [0, -1],
+    ArrowDown: [0, 1],
+  };
+  const simple: Record<string, () => void> = {
+    "+": () => viewer.zoom(1.1),
+    "=": () => viewer.zoom(1.1),
+    "-": () => viewer.zoom(1 / 1.1),
+    f: () => viewer.frame(),
+    r: () => viewer.reset(),
+    " ": () => viewer.play(!viewer.playing),
+    m: () => viewer.change((view) => (view.macro = !view.macro)),
+    v: () => viewer.change((view) => (view.viewDependent = !view.viewDependent)),
+    e: () => void next(viewer.environments.length, environmentOf(viewer), (i) =>
+      viewer.openEnvironment(i)),
+    a: () => void next(viewer.assets.length, viewer.asset, (i) => viewer.openAsset(i)),
+    l: () => viewer.addDisc(),
+    "[": () => viewer.change((view) => (view.exposure = step(view.exposure, -0.5))),
+    "]": () => viewer.change((view) => (view.exposure = step(view.exposure, 0.5))),
+    t: () => viewer.change((view) => (view.tone = view.tone === "filmic" ? "linear" : "filmic")),
+    b: () => viewer.change((view) => (view.background = !view.background)),
+    o: () => actions.openFiles(),
+    p: () => actions.savePicture(),
+    h: () => actions.hide(),
+    "?": () => actions.help(),
+  };
+  window.addEventListener("keydown", (event) => {
+    if (document.querySelector("dialog[open]") !== null && event.key !== "?") return;
+    const arrow = arrows[event.key];
+    if (wantsKey(event)) return;
+    if (arrow !== undefined) {
+      const [x, y] = arrow;
+      if (event.shiftKey) viewer.pan(kPanStep * x, kPanStep * y);
+      else if (event.ctrlKey || event.metaKey) viewer.turnObject(kStep * x, kStep * y);
+      else if (event.altKey) viewer.turnLight(kStep * x, kStep * y);
+      else viewer.drag(viewer.grip, kStep * x, kStep * y);
+      return event.preventDefault();
+    }
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const transfer = kTransfers[Number(event.key) - 1];
+    if (transfer !== undefined) return viewer.change((view) => (view.transfer = transfer));
+    const action = simple[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (action === undefined) return;
+    event.preventDefault();
+    action();
+  });
+}
+
+/** Whether the focused control uses the key itself. */
+function wantsKey(event: KeyboardEvent): boolean {
+  const focused = event.target as HTMLElement;
+  const isArrow = event.key.startsWith("Arrow");
+  if (focused instanceof HTMLSelectElement) return true;
+  if (focused instanceof HTMLInputElement)
+    return focused.type === "color" || isArrow || event.key === " ";
+  return focused instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter");
+}
+
+export function environmentOf(viewer: Viewer): number {
+  return viewer.environments.findIndex(
+    (each) => each.source === viewer.view.environment.source,
+  );
+}
+function next(count: number, now: number, open: (index: number) => unknown): void {
+  if (count > 0) open((now + 1) % count);
+}
+const step = (exposure: number, by: number): number =>
+  Math.max(-60, Math.min(60, Math.round((exposure + by) * 10) / 10));

@@ -1,0 +1,286 @@
+// The picture: an asset, its light and its surroundings, drawn when something changed and refined
+// while nothing does.
+import {
+  Box3,
+  Object3D,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Quaternion,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+  type Camera,
+} from "three";
+import {
+  EnvironmentBackground,
+  LambentLight,
+  ToneMapper,
+  fitClipping,
+  frameAutomatically,
+  subpixelPositions,
+  type Disc,
+  type Environment,
+} from "three-lambent";
+import { Accumulator } from "./accumulator";
+import { towards, type LoadedEnvironment } from "./environments";
+import type { LoadedAsset } from "./load_asset";
+import { kMostDiscs, type LookAt, type Triple, type ViewState } from "./view_state";
+
+/** Frames of a new picture that are added up before they take the place of the last one. */
+const kFirstShown = 4;
+
+export class Stage {
+  readonly renderer: WebGLRenderer;
+  /** Whether 32-bit textures can be filtered. */
+  readonly floatTextures: boolean;
+  loaded: LoadedAsset | null = null;
+  environment: LoadedEnvironment | null = null;
+
+  private readonly scene = new Scene();
+  private readonly perspective = new PerspectiveCamera();
+  private readonly orthographic = new OrthographicCamera();
+  private readonly background = new EnvironmentBackground();
+  private readonly tone = new ToneMapper();
+  private readonly accumulator: Accumulator;
+  private size = new Vector2(1, 1);
+  private light = new LambentLight(1);
+  // Found by a look at every vertex: once for an asset, not once a frame.
+  private measured: { diagonal: number; centre: Vector3 } | null = null;
+  private framed: { aspect: number; camera: LookAt } | null = null;
+
+  /** Throws where the browser gives no WebGL 2. */
+  constructor(canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: false,
+      alpha: false,
+      depth: false,
+      stencil: false,
+      powerPreference: "high-performance",
+    });
+    this.renderer.autoClear = true;
+    this.renderer.setClearColor(0x000000, 0);
+    const extensions = this.renderer.getContext();
+    this.floatTextures = extensions.getExtension("OES_texture_float_linear") !== null;
+    const float32 = extensions.getExtension("EXT_color_buffer_float") !== null;
+    this.accumulator = new Accumulator(1, 1, float32);
+    this.scene.add(this.background);
+  }
+
+  /** Pixels of the canvas itself. */
+  setSize(width: number, height: number): void {
+    this.size.set(width, height);
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.accumulator.setSize(width, height);
+  }
+  get aspect(): number {
+    return this.size.x / this.size.y;
+  }
+
+  setAsset(loaded: LoadedAsset | null): void {
+    if (this.loaded !== null) {
+      this.scene.remove(this.loaded.asset.root);
+      this.loaded.asset.dispose();
+    }
+    this.loaded = loaded;
+    this.measured = this.framed = null;
+    if (loaded !== null) this.scene.add(loaded.asset.root);
+  }
+  setEnvironment(environment: LoadedEnvironment | null): void {
+    if (this.environment !== environment) this.environment?.dispose();
+    this.environment = environment;
+  }
+
+  /** Length of the asset's bounding box's diagonal, metres, and its middle in its own frame. */
+  extent(): { diagonal: number; centre: Vector3 } {
+    if (this.loaded === null) return { diagonal: 1, centre: new Vector3() };
+    if (this.measured === null) {
+      const box = this.inOwnFrame((root) => new Box3().setFromObject(root));
+      this.measured = {
+        diagonal: Math.max(box.getSize(new Vector3()).length(), 1e-6),
+        centre: box.getCenter(new Vector3()),
+      };
+    }
+    return this.measured;
+  }
+
+  /** The camera of a view that names none: the file's first, or one that frames the asset. */
+  standardCamera(): LookAt {
+    if (this.framed?.aspect === this.aspect) return this.framed.camera;
+    const { centre } = this.extent();
+    let camera: Camera | undefined = this.loaded?.cameras[0];
+    if (camera === undefined) {
+      const automatic = new PerspectiveCamera();
+      if (this.loaded !== null)
+        this.inOwnFrame((root) => frameAutomatically(root, automatic, this.aspect));
+      else automatic.position.set(0, 0, 3);
+      camera = automatic;
+    }
+    this.framed = { aspect: this.aspect, camera: lookAtOf(camera, centre) };
+    return this.framed.camera;
+  }
+
+  private inOwnFrame<T>(work: (root: Object3D) => T): T {
+    const root = this.loaded!.asset.root;
+    const [position, rotation] = [root.position.clone(), root.quaternion.clone()];
+    root.position.set(0, 0, 0);
+    root.quaternion.identity();
+    root.updateWorldMatrix(true, true);
+    try {
+      return work(root);
+    } finally {
+      root.position.copy(position);
+      root.quaternion.copy(rotation);
+      root.updateWorldMatrix(true, true);
+    }
+  }
+
+  /** What a view says about the object and its light. Costs no time that grows with the asset. */
+  apply(view: ViewState): void {
+    this.tone.exposure = view.exposure;
+    this.tone.curve = view.tone;
+    const discs: Disc[] = view.discs.map((disc) => ({
+      direction: towards(disc.azimuth, disc.elevation),
+      diameter: (disc.diameter * Math.PI) / 180,
+      radiance: disc.radiance,
+    }));
+    const turn = new Quaternion(...view.environment.rotation);
+    const bands = this.loaded?.asset.info.bands ?? 5;
+    this.light =
+      this.environment?.light(bands).clone().rotate(turn) ?? new LambentLight(bands);
+    for (const disc of discs) this.light.addDisc(disc);
+    this.light.window(
+      view.window === "hann" || view.window === "lanczos" ? `${view.window}:${bands}` : view.window,
+    );
+
+    const seen: Environment = {
+      texture: this.environment?.texture ?? null,
+      rotation: turn,
+      uniform: this.environment?.uniform ?? [0, 0, 0],
+      discs: [
+        ...(this.environment?.discs ?? []).map((disc) => ({
+          ...disc,
+          direction: new Vector3().copy(disc.direction).applyQuaternion(turn),
+        })),
+        ...discs,
+      ].slice(0, kMostDiscs),
+    };
+    this.background.setEnvironment(seen);
+    this.background.visible = view.background;
+
+    if (this.loaded === null) return;
+    const { asset } = this.loaded;
+    asset.root.position.set(...view.object.translation);
+    asset.root.quaternion.set(...view.object.rotation);
+    asset.transfer = view.transfer;
+    asset.macro = view.macro;
+    asset.viewDependent = view.viewDependent;
+    asset.lobeExponent = view.lobe;
+    asset.setLight(this.light);
+    asset.setEnvironment(seen);
+  }
+
+  private cameraOf(look: LookAt): PerspectiveCamera | OrthographicCamera {
+    const half = look.orthographicHalfHeight;
+    const camera = half === null ? this.perspective : this.orthographic;
+    camera.position.set(...look.position);
+    camera.up.set(...look.up);
+    camera.lookAt(new Vector3(...look.target));
+    if (half === null) {
+      this.perspective.fov = look.verticalFov;
+      this.perspective.aspect = this.aspect;
+    } else {
+      [this.orthographic.top, this.orthographic.bottom] = [half, -half];
+      [this.orthographic.right, this.orthographic.left] = [half * this.aspect, -half * this.aspect];
+    }
+    fitClipping(camera, this.loaded?.asset.root ?? new Object3D());
+    return camera;
+  }
+
+  private draw(look: LookAt, place: readonly [number, number], samples: number): void {
+    const { x: width, y: height } = this.size;
+    const camera = this.cameraOf(look);
+    camera.setViewOffset(width, height, place[0] - 0.5, place[1] - 0.5, width, height);
+    if (this.loaded !== null) {
+      this.loaded.asset.samples = samples;
+      this.loaded.asset.update(this.renderer);
+    }
+    this.renderer.setRenderTarget(this.accumulator.frame);
+    this.renderer.clear();
+    this.renderer.render(this.scene, camera);
+    this.accumulator.add(this.renderer);
+  }
+
+  /** One frame of something that moves, onto the canvas. */
+  drawMoving(look: LookAt): void {
+    this.accumulator.reset();
+    this.draw(look, [0.5, 0.5], 1);
+    this.tone.render(this.renderer, this.accumulator.mean);
+    this.accumulator.reset();
+  }
+
+  /** One more sample of a still picture; true once it has all of them. */
+  refine(look: LookAt, samples: number): boolean {
+    const done = this.accumulator.count;
+    if (done >= samples) return true;
+    this.draw(look, subpixelPositions(samples)[done]!, samples);
+    if (done + 1 >= Math.min(kFirstShown, samples))
+      this.tone.render(this.renderer, this.accumulator.mean);
+    return done + 1 >= samples;
+  }
+
+  /** Shows what is there again, after exposure or tone changed. */
+  show(): void {
+    this.tone.render(this.renderer, this.accumulator.mean);
+  }
+
+  /** The direction of the world that lies behind a pixel, and a surface there if there is one. */
+  pick(look: LookAt, x: number, y: number): { direction: Vector3; normal: Vector3 | null } {
+    const camera = this.cameraOf(look);
+    camera.clearViewOffset();
+    camera.updateMatrixWorld();
+    const caster = new Raycaster();
+    const { x: width, y: height } = this.size;
+    caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), camera);
+    const hit =
+      this.loaded === null
+        ? undefined
+        : caster.intersectObject(this.loaded.asset.root, true).find((each) => each.normal ?? each.face);
+    const normal = hit?.normal ?? hit?.face?.normal;
+    return {
+      direction: caster.ray.direction.clone(),
+      normal: normal ? normal.clone().transformDirection(hit!.object.matrixWorld) : null,
+    };
+  }
+
+  dispose(): void {
+    this.setAsset(null);
+    this.setEnvironment(null);
+    this.background.dispose();
+    this.accumulator.dispose();
+    this.tone.dispose();
+    this.renderer.dispose();
+  }
+}
+
+/** A camera as a place and a target: on its axis, nearest to `centre`. */
+function lookAtOf(camera: Camera, centre: Vector3): LookAt {
+  camera.updateWorldMatrix(true, false);
+  const position = new Vector3().setFromMatrixPosition(camera.matrixWorld);
+  const forward = new Vector3(0, 0, -1).transformDirection(camera.matrixWorld);
+  const up = new Vector3(0, 1, 0).transformDirection(camera.matrixWorld);
+  const away = Math.max(centre.clone().sub(position).dot(forward), 1e-3);
+  const target = position.clone().addScaledVector(forward, away);
+  // What is level stays level when it is orbited.
+  const level = Math.abs(forward.clone().cross(new Vector3(0, 1, 0)).dot(up)) < 1e-6 && up.y > 0;
+  return {
+    position: position.toArray() as Triple,
+    target: target.toArray() as Triple,
+    up: level && Math.abs(forward.y) < 0.999 ? [0, 1, 0] : (up.toArray() as Triple),
+    verticalFov: camera instanceof PerspectiveCamera ? camera.fov : 40,
+    orthographicHalfHeight: camera instanceof OrthographicCamera ? camera.top : null,
+  };
+}
