@@ -156,7 +156,7 @@ export class LambentAsset {
    * No CPU time that grows with the asset, once a choice has been uploaded.
    *
    * @returns whether something was relit
-   * @throws Error if the device cannot draw floats, or the asset is too large for its textures
+   * @throws Error if the asset is too large for the device's textures
    */
   update(renderer: WebGLRenderer): boolean {
     this.follow(renderer);

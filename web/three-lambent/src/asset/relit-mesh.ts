@@ -67,8 +67,10 @@ interface Lit {
   pass: LightPass;
   /** The lobe's moments apply. */
   glossy: boolean;
-  /** For each row, besides the lobe's. */
+  /** For each row, besides the lobe's; none above 1. */
   scales: Float32Array | null;
+  /** What 1 of the scaled result stands for; null: results are floats, which need no unit. */
+  unit: number | null;
 }
 
 export class RelitMesh {
@@ -185,7 +187,7 @@ export class RelitMesh {
       const texture = new LitTexture(renderer, receivers, 1, this.what);
       const shape = { rows: 1, columns: vectors.bands ** 2, channels: vectors.channels };
       const pass = new TransferPass(vectors.numbers, shape, texture, [1, 1, 1], this.what);
-      this.lits.push({ texture, pass, glossy: false, scales: null });
+      this.lits.push({ texture, pass, glossy: false, scales: null, unit: null });
       uniforms.diffuseLit = { value: texture.target.texture };
       uniforms.diffuseALine = { value: texture.receiversALine };
     }
@@ -200,7 +202,8 @@ export class RelitMesh {
       const channels = unshadowed ? 1 : matrices.channels;
       const shape = { rows, columns, channels, shared: unshadowed };
       const pass = new TransferPass(numbers, shape, texture, matrices.glossy, this.what);
-      this.lits.push({ texture, pass, glossy: true, scales: null });
+      this.lits.push({ texture, pass, glossy: true, scales: null, unit: 1 });
+      uniforms.incidentUnit = { value: 1 };
       uniforms.incidentLit = { value: texture.target.texture };
       uniforms.incidentALine = { value: texture.receiversALine };
     }
@@ -233,7 +236,10 @@ export class RelitMesh {
     } else {
       pass = new TurnPass(this.normals(), biScale.tangents, rtt.bands, texture, this.what);
     }
-    this.lits.push({ texture, pass, glossy: false, scales: rttTexture.scales() });
+    // Halves have few digits below 2⁻¹⁴: what the scales have in common is left to the fragments.
+    const scales = rttTexture.scales();
+    const unit = Math.max(...scales) || 1;
+    this.lits.push({ texture, pass, glossy: false, scales: scales.map((s) => s / unit), unit });
 
     const fetch = this.mustFetch(renderer, rows);
     if (!this.geometry.hasAttribute("lambentTangent"))
@@ -242,6 +248,7 @@ export class RelitMesh {
     const uniforms: Record<string, IUniform> = {
       incidentLit: { value: texture.target.texture },
       incidentALine: { value: texture.receiversALine },
+      incidentUnit: { value: 1 },
       rtt: { value: rttTexture.texture },
       rttRows: { value: rttTexture.rows },
       views: { value: rtt.views },
@@ -345,7 +352,10 @@ export class RelitMesh {
     light: Float64Array,
     lobeExponent: number | null,
   ): void {
-    for (const { texture, pass, glossy, scales } of this.lits) {
+    // … and so is the light's own magnitude, to the next power of two.
+    const largest = light.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+    const lightUnit = largest > 0 ? 2 ** Math.ceil(Math.log2(largest)) : 1;
+    for (const { texture, pass, glossy, scales, unit } of this.lits) {
       const factors = new Float32Array(4 * Math.ceil(texture.rows / 4)).fill(1);
       if (glossy) {
         const exponent = lobeExponent ?? this.transfer!.matrices!.lobeExponent;
@@ -353,7 +363,9 @@ export class RelitMesh {
         for (let i = 0; i < texture.rows; ++i) factors[i] = moments[bandOf(i)];
       }
       scales?.forEach((scale, i) => (factors[i] *= scale));
-      pass.run(renderer, screen, light, factors);
+      if (unit !== null) this.material!.uniforms.incidentUnit.value = unit * lightUnit;
+      const scaled = unit === null ? light : light.map((value) => value / lightUnit);
+      pass.run(renderer, screen, scaled, factors);
     }
   }
 

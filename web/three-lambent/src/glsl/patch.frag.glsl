@@ -4,8 +4,8 @@
 // Numbers of a position and view are coefficient after coefficient, each R, G, B, in groups of
 // four: RGBR GBRG BRGB … So three sums of every third group hold each channel in known places.
 //
-// Before this text stand: #define LAMBENT_FETCH; LAMBENT_COEFFICIENTS, LAMBENT_GROUPS;
-// LAMBENT_GATHER with a FETCH; LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the
+// Before this text stand: #define LAMBENT_FETCH, and with it LAMBENT_ADD, which adds `weight` times
+// the texels at `first` to incident[]; incident.glsl; LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the
 // light holds already); LAMBENT_RESPONSE, which reads all groups of a row and adds their products
 // with the light to sum0, sum1, sum2 (src/materials/incident-code.ts); LAMBENT_FILTER, LAMBENT_ID_MAP 0 or 1; row_place.glsl,
 // view_square.glsl, rtt_footprint.glsl, tangent_frame.glsl, shading_point.glsl.
@@ -19,22 +19,18 @@ in vec3 tangent_;
 #if LAMBENT_FETCH
 flat in uvec3 corners;
 in vec3 barycentric;
-uniform sampler2D incidentLit;
-uniform int incidentALine;
 vec4 incident[LAMBENT_GROUPS];
 
-ivec2 firstOf(uint p) {
-  int line = int(p) / incidentALine;
-  return ivec2((int(p) - line * incidentALine) * LAMBENT_COEFFICIENTS, line);
+void addIncident(int p, float weight) {
+  ivec2 first = incidentPlace(p);
+  uvec4 words;
+  LAMBENT_ADD
 }
 
 // The light at this place of its triangle.
 void interpolate() {
-  ivec2 a = firstOf(corners.x), b = firstOf(corners.y), c = firstOf(corners.z);
-#define lit(i) (barycentric.x * texelFetch(incidentLit, a + ivec2(i, 0), 0).rgb + \
-                barycentric.y * texelFetch(incidentLit, b + ivec2(i, 0), 0).rgb + \
-                barycentric.z * texelFetch(incidentLit, c + ivec2(i, 0), 0).rgb)
-  LAMBENT_GATHER
+  for (int g = 0; g < LAMBENT_GROUPS; ++g) incident[g] = vec4(0.0);
+  for (int k = 0; k < 3; ++k) addIncident(int(corners[k]), barycentric[k]);
 }
 #else
 in vec4 incident[LAMBENT_GROUPS];
@@ -194,6 +190,7 @@ void main() {
 #else
     gl_FragColor.rgb = nearest(q);
 #endif
+    gl_FragColor.rgb *= incidentUnit;
   }
 #include <tonemapping_fragment>
 #include <colorspace_fragment>

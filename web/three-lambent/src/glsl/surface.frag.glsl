@@ -3,8 +3,8 @@
 //
 // Before this text stand: #define LAMBENT_KIND 0 vertices, 1 texels, 2 mirror, 3 black, 4 unlit;
 // LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_FETCH, LAMBENT_MAP, LAMBENT_ALBEDO_OUTSIDE; with glossy
-// LAMBENT_COEFFICIENTS, LAMBENT_GROUPS, LAMBENT_LOBE, which adds y[i] times coefficient i for all of
-// incident[], and sh.glsl; shading_point.glsl, base_color.glsl with a map, environment.glsl for a
+// LAMBENT_LOBE, which adds y[i] times coefficient i for all of incident[], LAMBENT_ADD, which adds
+// `weight` times the texels at `first` to it, incident.glsl and sh.glsl; shading_point.glsl, base_color.glsl with a map, environment.glsl for a
 // mirror.
 
 #include <common>
@@ -27,14 +27,9 @@ in vec3 barycentric;
 #endif
 
 #if LAMBENT_KIND == 1 && LAMBENT_DIFFUSE
-uniform sampler2D diffuseLit;
+uniform highp usampler2D diffuseLit;  // bits of floats
 uniform int diffuseALine;
 #endif
-#if LAMBENT_GLOSSY && (LAMBENT_KIND == 1 || LAMBENT_FETCH)
-uniform sampler2D incidentLit;
-uniform int incidentALine;
-#endif
-
 #if LAMBENT_KIND == 1
 uniform ivec2 grid;
 // The four texels around the place, and their weights.
@@ -52,13 +47,12 @@ void chooseTexels(vec2 uv) {
 #endif
 
 #if LAMBENT_GLOSSY && (LAMBENT_KIND == 1 || LAMBENT_FETCH)
-vec3 lobeOf(int p, float y[kCoefficients]) {
-  int line = p / incidentALine;
-  ivec2 first = ivec2((p - line * incidentALine) * LAMBENT_COEFFICIENTS, line);
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < LAMBENT_COEFFICIENTS; ++i)
-    sum += y[i] * texelFetch(incidentLit, first + ivec2(i, 0), 0).rgb;
-  return sum;
+vec4 incident[LAMBENT_GROUPS];
+
+void addIncident(int p, float weight) {
+  ivec2 first = incidentPlace(p);
+  uvec4 words;
+  LAMBENT_ADD
 }
 #endif
 
@@ -89,8 +83,8 @@ void main() {
 #else
     for (int k = 0; k < 4; ++k) {
       int line = receiver[k] / diffuseALine;
-      diffuse += weight[k] *
-                 texelFetch(diffuseLit, ivec2(receiver[k] - line * diffuseALine, line), 0).rgb;
+      ivec2 place = ivec2(receiver[k] - line * diffuseALine, line);
+      diffuse += weight[k] * uintBitsToFloat(texelFetch(diffuseLit, place, 0).rgb);
     }
 #endif
 #if LAMBENT_ALBEDO_OUTSIDE
@@ -102,15 +96,17 @@ void main() {
     float y[kCoefficients];
     harmonics(reflected, y);
     vec3 lobe = vec3(0.0);
+#if LAMBENT_KIND == 1 || LAMBENT_FETCH
+    for (int g = 0; g < LAMBENT_GROUPS; ++g) incident[g] = vec4(0.0);
+#endif
 #if LAMBENT_KIND == 1
     for (int k = 0; k < 4; ++k)
-      if (weight[k] != 0.0) lobe += weight[k] * lobeOf(receiver[k], y);
+      if (weight[k] != 0.0) addIncident(receiver[k], weight[k]);
 #elif LAMBENT_FETCH
-    for (int k = 0; k < 3; ++k) lobe += barycentric[k] * lobeOf(int(corners[k]), y);
-#else
-    LAMBENT_LOBE
+    for (int k = 0; k < 3; ++k) addIncident(int(corners[k]), barycentric[k]);
 #endif
-    gl_FragColor.rgb += base * lobe;
+    LAMBENT_LOBE
+    gl_FragColor.rgb += base * incidentUnit * lobe;
 #endif
 #endif
   }

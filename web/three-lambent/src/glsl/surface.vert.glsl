@@ -3,8 +3,8 @@
 // Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
 // LAMBENT_UV, LAMBENT_COLOR,
 // LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
-// corners, and vertices know their triangle); with glossy or patch LAMBENT_GROUPS and
-// LAMBENT_GATHER, which writes incident[] from the texels `lit(0)`, `lit(1)` ….
+// corners, and vertices know their triangle); where they interpolate it LAMBENT_COPY, which writes
+// incident[] from the texels at `first` (src/materials/incident-code.ts), and incident.glsl.
 
 #include <common>
 #include <logdepthbuf_pars_vertex>
@@ -24,13 +24,11 @@ out vec4 positionU;
 out vec4 normalV;
 out vec3 vertexColor;
 #if LAMBENT_VERTICES && LAMBENT_DIFFUSE
-uniform sampler2D diffuseLit;
+uniform highp usampler2D diffuseLit;  // bits of floats
 uniform int diffuseALine;
 out vec3 diffuseRadiance;
 #endif
 #if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
-uniform sampler2D incidentLit;
-uniform int incidentALine;
 out vec4 incident[LAMBENT_GROUPS];
 #endif
 
@@ -59,14 +57,13 @@ void main() {
 #endif
 #if LAMBENT_VERTICES && LAMBENT_DIFFUSE
   int line = receiver / diffuseALine;
-  diffuseRadiance = texelFetch(diffuseLit, ivec2(receiver - line * diffuseALine, line), 0).rgb;
+  ivec2 diffusePlace = ivec2(receiver - line * diffuseALine, line);
+  diffuseRadiance = uintBitsToFloat(texelFetch(diffuseLit, diffusePlace, 0).rgb);
 #endif
 #if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
-  int incidentLine = receiver / incidentALine;
-  ivec2 first =
-      ivec2((receiver - incidentLine * incidentALine) * LAMBENT_COEFFICIENTS, incidentLine);
-#define lit(i) texelFetch(incidentLit, first + ivec2(i, 0), 0).rgb
-  LAMBENT_GATHER
+  ivec2 first = incidentPlace(receiver);
+  uvec4 words;
+  LAMBENT_COPY
 #endif
   vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * mvPosition;

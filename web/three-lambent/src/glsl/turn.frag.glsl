@@ -3,8 +3,9 @@
 // many directions: those are looked up where the frame carries them, and what turns values into
 // coefficients is the same for all frames (src/gpu/turn-samples.ts).
 //
-// Before this text stand: #define LAMBENT_ROWS, of the result; sh.glsl with LAMBENT_BANDS, of the
-// light; row_place.glsl; tangent_frame.glsl.
+// Before this text stand: #define LAMBENT_ROWS, of the result, and LAMBENT_TEXELS that a receiver
+// takes; sh.glsl with LAMBENT_BANDS, of the light; row_place.glsl; tangent_frame.glsl. After it:
+// pass_main.glsl.
 
 uniform sampler2DArray normals;
 uniform sampler2DArray tangents;
@@ -12,30 +13,27 @@ uniform ivec3 frameRows;
 uniform sampler2D samples;  // (k, i): direction k of the band, and its value's share in coefficient i
 uniform vec3 light[kCoefficients];
 uniform vec4 factors[(LAMBENT_ROWS + 3) / 4];
-uniform int receivers;
-uniform int receiversALine;
 
-out vec4 lit;
+mat3 frame;
 
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  int column = at.x / LAMBENT_ROWS;
-  int i = at.x - column * LAMBENT_ROWS;
-  int p = at.y * receiversALine + column;
-  lit = vec4(0.0, 0.0, 0.0, 1.0);
-  if (p >= receivers || i >= kCoefficients) return;
-  ivec3 place = rowPlace(frameRows, p);
-  mat3 frame = assetFromPatch(normalize(texelFetch(normals, place, 0).xyz),
-                              texelFetch(tangents, place, 0).xyz);
+void begin(int receiver) {
+  ivec3 place = rowPlace(frameRows, receiver);
+  frame = assetFromPatch(normalize(texelFetch(normals, place, 0).xyz),
+                         texelFetch(tangents, place, 0).xyz);
+}
+
+vec3 result(int i) {
+  if (i >= kCoefficients) return vec3(0.0);
   int l = 0;
   while ((l + 1) * (l + 1) <= i) ++l;
+  vec3 sum = vec3(0.0);
   for (int k = 0; k < 2 * l + 1; ++k) {
     float y[kCoefficients];
     vec4 from = texelFetch(samples, ivec2(k, i), 0);
     harmonics(frame * from.xyz, y);
     vec3 value = vec3(0.0);
     for (int m = l * l; m < (l + 1) * (l + 1); ++m) value += light[m] * y[m];
-    lit.rgb += from.w * value;
+    sum += from.w * value;
   }
-  lit.rgb *= factors[i >> 2][i & 3];
+  return sum * factors[i >> 2][i & 3];
 }

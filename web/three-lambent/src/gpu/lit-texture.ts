@@ -1,11 +1,12 @@
-// Results of transfer, [receiver][row] RGB, as a picture of floats that a pass draws and vertices or
-// fragments fetch from.
+// Results of transfer, receiver after receiver, as a picture that a pass draws and vertices or
+// fragments fetch from: of one RGB value the bits of floats, of more of them halves, eight in a texel.
+// Texels of integers can be drawn on every WebGL2 device, those of floats not.
 
 import {
-  FloatType,
   NearestFilter,
   NoColorSpace,
-  RGBAFormat,
+  RGBAIntegerFormat,
+  UnsignedIntType,
   WebGLRenderTarget,
   type WebGLRenderer,
 } from "three";
@@ -14,12 +15,14 @@ const kUsualWidth = 2048;
 
 export class LitTexture {
   readonly target: WebGLRenderTarget;
+  /** Of a receiver. */
+  readonly texels: number;
   /** Receivers side by side in a line. */
   readonly receiversALine: number;
 
   /**
-   * @param rows texels of a receiver
-   * @throws Error if the device's textures are too small, or it cannot draw floats
+   * @param rows RGB values of a receiver
+   * @throws Error if the device's textures are too small
    */
   constructor(
     renderer: WebGLRenderer,
@@ -27,24 +30,21 @@ export class LitTexture {
     readonly rows: number,
     what: string,
   ) {
-    if (!renderer.extensions.has("EXT_color_buffer_float"))
-      throw new Error(
-        "three-lambent: this device cannot draw into textures of floats (EXT_color_buffer_float), " +
-          "which relighting on the GPU needs",
-      );
+    this.texels = rows === 1 ? 1 : Math.ceil((3 * rows) / 8);
     const most = renderer.capabilities.maxTextureSize;
-    let aLine = Math.max(1, Math.min(Math.floor(kUsualWidth / rows), receivers));
-    if (Math.ceil(receivers / aLine) > most) aLine = Math.floor(most / rows);
+    let aLine = Math.max(1, Math.min(Math.floor(kUsualWidth / this.texels), receivers));
+    if (Math.ceil(receivers / aLine) > most) aLine = Math.floor(most / this.texels);
     const height = Math.ceil(receivers / aLine);
-    if (aLine * rows > most || height > most)
+    if (aLine * this.texels > most || height > most)
       throw new Error(
         `three-lambent: ${what}: ${receivers} receivers × ${rows} results do not fit into this ` +
           `device's textures of ${most} texels a side: bake fewer receivers or bands`,
       );
     this.receiversALine = aLine;
-    this.target = new WebGLRenderTarget(aLine * rows, height, {
-      format: RGBAFormat,
-      type: FloatType,
+    this.target = new WebGLRenderTarget(aLine * this.texels, height, {
+      format: RGBAIntegerFormat,
+      type: UnsignedIntType,
+      internalFormat: "RGBA32UI",
       minFilter: NearestFilter,
       magFilter: NearestFilter,
       colorSpace: NoColorSpace,

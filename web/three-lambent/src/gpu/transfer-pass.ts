@@ -13,7 +13,16 @@ import {
   type WebGLRenderer,
 } from "three";
 import type { Numbers } from "../format/description.js";
-import { passVert, rowPlace, sh, tangentFrame, transferFrag, turnFrag } from "../generated/shaders.js";
+import {
+  pack,
+  passMain,
+  passVert,
+  rowPlace,
+  sh,
+  tangentFrame,
+  transferFrag,
+  turnFrag,
+} from "../generated/shaders.js";
 import type { FullScreenPass } from "./full-screen-pass.js";
 import type { LitTexture } from "./lit-texture.js";
 import { layoutUniform, textureOfRows } from "./row-texture.js";
@@ -23,6 +32,7 @@ const kHeader = `precision highp float;
 precision highp int;
 precision highp sampler2D;
 precision highp sampler2DArray;
+precision highp usampler2D;
 `;
 
 function passMaterial(
@@ -109,11 +119,12 @@ export class TransferPass implements LightPass {
     }
     this.material = passMaterial(
       `#define LAMBENT_ROWS ${lit.rows}
+#define LAMBENT_TEXELS ${lit.texels}
 #define LAMBENT_STORED_ROWS ${rows}
 #define LAMBENT_QUADS ${quads}
 #define LAMBENT_CHANNELS ${channels}
 #define LAMBENT_SCALED ${numbers.scales ? 1 : 0}
-${rowPlace}${transferFrag}`,
+${rowPlace}${transferFrag}${pack}${passMain}`,
       uniforms,
     );
   }
@@ -164,8 +175,9 @@ export class TurnPass implements LightPass {
     this.textures.push(frames[0].texture, frames[1].texture, turn);
     this.material = passMaterial(
       `#define LAMBENT_ROWS ${lit.rows}
+#define LAMBENT_TEXELS ${lit.texels}
 #define LAMBENT_BANDS ${bands}
-${sh}${rowPlace}${tangentFrame}${turnFrag}`,
+${sh}${rowPlace}${tangentFrame}${turnFrag}${pack}${passMain}`,
       {
         normals: { value: frames[0].texture },
         tangents: { value: frames[1].texture },

@@ -6,17 +6,30 @@ export function incidentGroups(coefficients: number): number {
   return Math.ceil((3 * coefficients) / 4);
 }
 
-/** Writes incident[] from `lit(0)`, `lit(1)` …, each of which is looked up once. */
-export function gatherCode(coefficients: number): string {
+/** Texels of eight halves for so many coefficients. */
+export function incidentTexels(coefficients: number): number {
+  return Math.ceil((3 * coefficients) / 8);
+}
+
+function fromTexels(coefficients: number, write: (group: number, value: string) => string): string {
   const lines: string[] = [];
-  for (let i = 0; i < coefficients; ++i) lines.push(`vec3 lit${i} = lit(${i});`);
-  const number = (f: number) =>
-    f < 3 * coefficients ? `lit${Math.floor(f / 3)}.${"rgb"[f % 3]}` : "0.0";
-  for (let g = 0; g < incidentGroups(coefficients); ++g) {
-    const four = [0, 1, 2, 3].map((k) => number(4 * g + k));
-    lines.push(`incident[${g}] = vec4(${four.join(", ")});`);
+  const groups = incidentGroups(coefficients);
+  for (let t = 0; t < incidentTexels(coefficients); ++t) {
+    lines.push(`words = texelFetch(incidentLit, first + ivec2(${t}, 0), 0);`);
+    lines.push(write(2 * t, "lowGroup(words)"));
+    if (2 * t + 1 < groups) lines.push(write(2 * t + 1, "highGroup(words)"));
   }
   return lines.join(" ");
+}
+
+/** Writes incident[] from the texels at `first`. */
+export function copyCode(coefficients: number): string {
+  return fromTexels(coefficients, (group, value) => `incident[${group}] = ${value};`);
+}
+
+/** Adds `weight` times the texels at `first` to incident[]. */
+export function addCode(coefficients: number): string {
+  return fromTexels(coefficients, (group, value) => `incident[${group}] += weight * ${value};`);
 }
 
 /** Adds coefficient i times y[i] for all of them to `lobe`. */

@@ -20,6 +20,7 @@ import {
 import {
   baseColor,
   environment as environmentGlsl,
+  incident as incidentGlsl,
   patchFrag,
   rowPlace,
   rttFootprint,
@@ -30,7 +31,14 @@ import {
   tangentFrame,
   viewSquare,
 } from "../generated/shaders.js";
-import { gatherCode, incidentGroups, lobeCode, responseCode } from "./incident-code.js";
+import {
+  addCode,
+  copyCode,
+  incidentGroups,
+  incidentTexels,
+  lobeCode,
+  responseCode,
+} from "./incident-code.js";
 
 /** LAMBENT_KIND of surface.frag.glsl. */
 export const kSurfaceKind = { vertices: 0, texels: 1, mirror: 2, black: 3, unlit: 4 } as const;
@@ -68,6 +76,18 @@ function defines(values: Record<string, string | number>): string {
   return Object.entries(values)
     .map(([name, value]) => `#define LAMBENT_${name} ${value}\n`)
     .join("");
+}
+
+/** How shaders find the light of a receiver. */
+function incidentParts(coefficients: number): string {
+  return (
+    defines({
+      TEXELS: incidentTexels(coefficients),
+      GROUPS: incidentGroups(coefficients),
+      COPY: copyCode(coefficients),
+      ADD: addCode(coefficients),
+    }) + incidentGlsl
+  );
 }
 
 const inverse = new Matrix4();
@@ -143,20 +163,19 @@ export function makeSurfaceMaterial(
     UV: flag(shape.uv),
     COLOR: flag(shape.colored),
     ALBEDO_OUTSIDE: flag(shape.albedoOutside),
-    COEFFICIENTS: coefficients,
-    GROUPS: incidentGroups(coefficients),
-    GATHER: gatherCode(coefficients),
     LOBE: lobeCode(coefficients),
   });
+  const light = glossy ? incidentParts(coefficients) : "";
   const parts = [
     common,
+    light,
     glossy ? `#define LAMBENT_BANDS ${shape.lobeBands}\n${sh}` : "",
     shadingPoint,
     map ? baseColor : "",
     shape.kind === "mirror" ? `uniform mat3 worldFromAsset;\n${environmentGlsl}` : "",
     surfaceFrag,
   ];
-  const material = new RelitMaterial(common + surfaceVert, parts.join("\n"), {
+  const material = new RelitMaterial(common + light + surfaceVert, parts.join("\n"), {
     reflectance: { value: new Vector3(1, 1, 1) },
     ...(map && {
       baseColorMap: { value: map },
@@ -182,16 +201,15 @@ export function makePatchMaterial(
     FETCH: flag(shape.fetch),
     UV: 1,
     COLOR: 0,
-    COEFFICIENTS: coefficients,
-    GROUPS: incidentGroups(coefficients),
-    GATHER: gatherCode(coefficients),
     NUMBERS: shape.numbers,
     FILTER: flag(shape.filter),
     ID_MAP: flag(shape.idMap),
     RESPONSE: responseCode(coefficients, shape.groupsAFetch),
   });
+  const light = incidentParts(coefficients);
   const parts = [
     common,
+    light,
     kFootprintDefines,
     rowPlace,
     viewSquare,
@@ -200,5 +218,5 @@ export function makePatchMaterial(
     shadingPoint,
     patchFrag,
   ];
-  return new RelitMaterial(common + surfaceVert, parts.join("\n"), uniforms);
+  return new RelitMaterial(common + light + surfaceVert, parts.join("\n"), uniforms);
 }
