@@ -1,6 +1,7 @@
 // Exit radiance of a relit surface at one sub-sample. Alpha is coverage.
 //
-// Before this text stand: #define LAMBENT_GLOSSY 0 or 1 and, if 1, sh.glsl.
+// Before this text stand: #define LAMBENT_GLOSSY 0 or 1 and, if 1, sh.glsl; base_color.glsl;
+// environment.glsl.
 
 struct Vertex {
   vec4 positionU;
@@ -11,17 +12,12 @@ struct Vertex {
 layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(std430, binding = 2) readonly buffer Diffuse { float diffuse[]; };  // [receiver][3]
 layout(std430, binding = 3) readonly buffer Lobe { float lobe[]; };  // [receiver][coefficient][3]
-layout(std430, binding = 4) readonly buffer SrgbTable { float linearFromSrgb[]; };  // 256
-
-layout(binding = 0) uniform usampler2D baseColorTexture;  // sRGB code values
-layout(binding = 1) uniform sampler2D environment;        // latitude-longitude
 
 const int kVertices = 0, kTexels = 1, kMirror = 2, kBlack = 3;
 uniform int kind;
 uniform vec4 eye;  // position, 1; or, for an orthographic camera, unit direction to the viewer, 0
 
 uniform bool hasDiffuse, hasTexture, albedoOutside;
-uniform ivec2 wrap;  // of the base-colour texture: 0 repeat, 1 clamp to edge, 2 mirrored repeat
 uniform vec3 mirror;
 uniform ivec2 grid;  // texels: the whole grid's size
 uniform ivec2 rows;  // texels: this draw shades what falls on rows.x … rows.y − 1; receiver 0 is
@@ -31,47 +27,6 @@ in vec3 barycentric;
 flat in uvec3 triangle;
 flat in vec3 geometricNormal;
 layout(location = 0) out vec4 radiance;
-
-int wrapTexel(int i, int size, int rule) {
-  if (rule == 1) return clamp(i, 0, size - 1);
-  int period = rule == 2 ? 2 * size : size;
-  int k = i % period;
-  if (k < 0) k += period;
-  return k < size ? k : 2 * size - 1 - k;
-}
-
-vec3 baseTexel(int x, int y) {
-  uvec4 t = texelFetch(baseColorTexture, ivec2(x, y), 0);
-  return vec3(linearFromSrgb[t.r], linearFromSrgb[t.g], linearFromSrgb[t.b]);
-}
-
-// As scene::sampleBaseColor: filtered after decoding.
-vec3 sampleBaseColor(vec2 uv) {
-  ivec2 size = textureSize(baseColorTexture, 0);
-  vec2 at = clamp(uv, -1e6, 1e6) * vec2(size) - 0.5;
-  vec2 cell = floor(at), w = at - cell;
-  int x0 = wrapTexel(int(cell.x), size.x, wrap.x), x1 = wrapTexel(int(cell.x) + 1, size.x, wrap.x);
-  int y0 = wrapTexel(int(cell.y), size.y, wrap.y), y1 = wrapTexel(int(cell.y) + 1, size.y, wrap.y);
-  return mix(mix(baseTexel(x0, y0), baseTexel(x1, y0), w.x),
-             mix(baseTexel(x0, y1), baseTexel(x1, y1), w.x), w.y);
-}
-
-// As light::Environment looks up an image: wraps around in azimuth, constant towards the poles.
-vec3 sampleEnvironment(vec3 d) {
-  const float kPi = 3.14159265358979;
-  ivec2 size = textureSize(environment, 0);
-  float u = atan(d.z, d.x) / (2.0 * kPi) + 0.5;
-  float v = 0.5 - asin(clamp(d.y, -1.0, 1.0)) / kPi;
-  vec2 at = vec2(u, v) * vec2(size) - 0.5;
-  vec2 cell = floor(at), w = at - cell;
-  int x0 = wrapTexel(int(cell.x), size.x, 0), x1 = wrapTexel(int(cell.x) + 1, size.x, 0);
-  int y0 = clamp(int(cell.y), 0, size.y - 1), y1 = clamp(int(cell.y) + 1, 0, size.y - 1);
-  return mix(mix(texelFetch(environment, ivec2(x0, y0), 0).rgb,
-                 texelFetch(environment, ivec2(x1, y0), 0).rgb, w.x),
-             mix(texelFetch(environment, ivec2(x0, y1), 0).rgb,
-                 texelFetch(environment, ivec2(x1, y1), 0).rgb, w.x),
-             w.y);
-}
 
 // The receivers around this point and their weights: three of a triangle, or four of the grid.
 uint receiver[4];

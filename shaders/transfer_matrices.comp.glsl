@@ -1,32 +1,35 @@
 // Radiance that reaches receivers, M L, times a factor for each row. Glossy: convolved with their
 // lobe, α_i G_i (M L)_i k (sloan2002precomputed eq. 9 and 12). Under meso-structure: the factors are
-// the scales of its texture's coefficients (sloan2003biscale eq. 4). One invocation for each receiver and
-// row.
+// the scales of its texture's coefficients (sloan2003biscale eq. 4). One invocation for
+// each receiver and row.
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 1) readonly buffer Light { float light[]; };  // [column][3]
+layout(std430, binding = 1) readonly buffer Light { float light[]; };  // [receiver or one][used][3]
 layout(std430, binding = 2) writeonly buffer Lit { float lit[]; };     // [receiver][row][3]
 layout(std430, binding = 3) readonly buffer Factors { float factors[]; };  // [row]
 
-uniform uint receivers;  // in this chunk
-uniform uint first;      // of this chunk in the output
+uniform uint begin;      // the first receiver of the chunk that this dispatch is for
+uniform uint receivers;  // and how many
+uniform uint first;      // of the chunk in the output
 uniform uint channels;   // 1 or 3
 uniform uint rows;
 uniform uint rowsUsed;  // of them, the first
 uniform uint stride;    // numbers of a receiver in the output, 3 · rowsUsed at least
 uniform uint columns;
 uniform uint used;  // of the columns, as many as the light has
+uniform uint lightStride;  // numbers of a receiver's light; 0: all have the same
 uniform vec3 reflectance;
 
 void main() {
   uint p = gl_GlobalInvocationID.x / rowsUsed, i = gl_GlobalInvocationID.x % rowsUsed;
   if (p >= receivers) return;
-  uint base = (p * channels * rows + i) * columns;
+  uint base = ((begin + p) * channels * rows + i) * columns;
   uint nextChannel = rows * columns;
   vec3 sum = vec3(0.0);
   for (uint j = 0u; j < used; ++j) {
-    vec3 l = vec3(light[3u * j], light[3u * j + 1u], light[3u * j + 2u]);
+    uint from = p * lightStride + 3u * j;
+    vec3 l = vec3(light[from], light[from + 1u], light[from + 2u]);
     vec3 m = vec3(number(base + j));
     if (channels == 3u) {
       m.y = number(base + nextChannel + j);
@@ -35,7 +38,7 @@ void main() {
     sum += m * l;
   }
   sum *= reflectance * factors[i];
-  uint at = (first + p) * stride + 3u * i;
+  uint at = (first + begin + p) * stride + 3u * i;
   lit[at] = sum.x;
   lit[at + 1u] = sum.y;
   lit[at + 2u] = sum.z;

@@ -164,7 +164,7 @@ TEST_F(GlCapture, LeavesStateAsItWas) {
   LightCapture onGpu = make({{ball(Vec3(0, 0, 3), 1, Rgb::Ones())}}, {Vec3::Zero()});
   Result<GlTarget> target = GlTarget::make(7, 5);
   ASSERT_TRUE(target);
-  glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer.name());
+  glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer());
   glViewport(1, 2, 3, 4);
   glEnable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
@@ -179,7 +179,7 @@ TEST_F(GlCapture, LeavesStateAsItWas) {
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
   glGetIntegerv(GL_DEPTH_FUNC, &function);
   EXPECT_EQ(viewport[1], 2);
-  EXPECT_EQ(GLuint(framebuffer), target->framebuffer.name());
+  EXPECT_EQ(GLuint(framebuffer), target->framebuffer());
   EXPECT_EQ(function, GL_GREATER);
   EXPECT_TRUE(glIsEnabled(GL_BLEND));
   EXPECT_FALSE(glIsEnabled(GL_DEPTH_TEST));
@@ -204,10 +204,10 @@ TEST_F(GlCapture, DrawsTheBodiesWithDepth) {
   ASSERT_TRUE(target);
   const auto middle = [&](const MovingScene& scene) {
     LightCapture capture = make(scene, {Vec3::Zero()});
-    target->clear();
+    target->beginFrame();
     target->clearSum();
-    capture.draw(target->framebuffer.name(), 8, 8, clip, 0);
-    target->addToSum();
+    capture.draw(target->framebuffer(), 8, 8, clip, 0);
+    target->addToSum({}, nullptr);
     const Result<image::Image> image = target->mean(1);
     EXPECT_TRUE(image);
     return image->at(4, 4);
@@ -223,6 +223,12 @@ TEST_F(GlCapture, DrawsTheBodiesWithDepth) {
   EXPECT_TRUE(middle({{far, red}}).isApprox(Rgb(3, 0, 0)));
   EXPECT_TRUE(middle({{red, far}}).isApprox(Rgb(3, 0, 0)));
   EXPECT_TRUE(middle({{near, red, far}}).isApprox(Rgb::Ones()));
+  // One body of two parts that are both beyond.
+  Body parts = far;
+  parts.mesh = scene::merge(
+      std::vector{scene::icosphere(0.4f, 3),
+                  scene::translated(scene::flipped(scene::icosphere(0.4f, 3)), Vec3(0, 0, -9))});
+  EXPECT_TRUE(middle({{parts}}).isApprox(Rgb(0, 0, 7)));
   Body back = red;
   back.mesh = scene::flipped(back.mesh);
   EXPECT_TRUE((middle({{back}}) == 0).all());

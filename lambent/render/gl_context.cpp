@@ -133,16 +133,4 @@ Result<GlContext> GlContext::create() {
   return report::failed(fmt::format("no OpenGL 4.5 context: {}. {}", reasons, kRemedy));
 }
 
-std::size_t GlContext::largestStorageBlock() const {
-  GLint64 bytes = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-  return bytes > 0 ? std::size_t(bytes) : 0;
-}
-
-int GlContext::largestTexture() const {
-  GLint side = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
-  return side;
-}
-
 }  // namespace lambent::render

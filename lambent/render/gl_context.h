@@ -1,7 +1,6 @@
 // An OpenGL 4.5 core context without a window, through EGL.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 
 #include "lambent/report/result.h"
@@ -17,9 +16,6 @@ class GlContext {
   GlContext(GlContext&&) noexcept;
   GlContext& operator=(GlContext&&) noexcept;
   ~GlContext();
-
-  std::size_t largestStorageBlock() const;  ///< bytes of one shader storage buffer
-  int largestTexture() const;               ///< side, in texels
 
  private:
   struct Impl;

@@ -19,6 +19,15 @@ Buffer makeBuffer(std::size_t bytes, const void* data) {
   return buffer;
 }
 
+Buffer makeChangingBuffer(std::size_t bytes) {
+  GLuint name = 0;
+  glCreateBuffers(1, &name);
+  Buffer buffer(name);
+  glNamedBufferStorage(name, GLsizeiptr(std::max<std::size_t>(bytes, 4)), nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
+  return buffer;
+}
+
 Texture makeTexture(GLenum format, int width, int height) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
@@ -56,6 +65,14 @@ Status checkGl(std::string_view doing) {
   }
   if (names.empty()) return Status::ok();
   return report::failed(fmt::format("OpenGL, {}: {}", doing, names));
+}
+
+GlLimits limitsOfGl() {
+  GLint64 bytes = 0;
+  GLint side = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+  return {bytes > 0 ? std::size_t(bytes) : 0, int(side)};
 }
 
 Result<Program> Program::make(std::span<const Stage> stages) {
@@ -111,6 +128,9 @@ void Program::set(const char* uniform, int x, int y) const {
 void Program::set(const char* uniform, int x, int y, int z, int w) const {
   glProgramUniform4i(program_.name(), location(uniform), x, y, z, w);
 }
+void Program::set(const char* uniform, float value) const {
+  glProgramUniform1f(program_.name(), location(uniform), value);
+}
 void Program::set(const char* uniform, float x, float y) const {
   glProgramUniform2f(program_.name(), location(uniform), x, y);
 }
@@ -122,6 +142,9 @@ void Program::set(const char* uniform, float x, float y, float z, float w) const
 }
 void Program::setMatrix(const char* uniform, const float* columnMajor) const {
   glProgramUniformMatrix4fv(program_.name(), location(uniform), 1, GL_FALSE, columnMajor);
+}
+void Program::setMatrix(const char* uniform, const Mat3& matrix) const {
+  glProgramUniformMatrix3fv(program_.name(), location(uniform), 1, GL_FALSE, matrix.data());
 }
 
 }  // namespace lambent::render

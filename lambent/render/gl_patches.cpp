@@ -137,12 +137,11 @@ std::string footprintDefines() {
                      shade::kMostProbes, shade::kLeastCosine);
 }
 
-Status GlPatches::addRtt(int index) {
-  if (rtts_.contains(index)) return Status::ok();
+Result<GlPatches::Rtt> GlPatches::makeRtt(int index, bool filter) const {
   const EncodedRtt& from = asset_->transfer.rtts[std::size_t(index)];
   const Encoding encoding = from.values.encoding;
   const shade::RttPyramid pyramid =
-      shade::makePyramid(encode::decode(from), options_.biScale.filter ? kMostLevels : 1);
+      shade::makePyramid(encode::decode(from), filter ? kMostLevels : 1);
 
   Rtt rtt;
   std::size_t positions = 0;
@@ -192,9 +191,8 @@ Status GlPatches::addRtt(int index) {
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
   rtt.texture = Texture(name);
   glTextureBuffer(name, GL_RGBA32UI, rtt.numbers.name());
-  if (Status s = checkGl("uploading a radiance transfer texture"); !s) return s;
-  rtts_.emplace(index, std::move(rtt));
-  return Status::ok();
+  if (Status s = checkGl("uploading a radiance transfer texture"); !s) return s.error();
+  return rtt;
 }
 
 Status GlPatches::addIdMap(std::uint32_t mesh) {
@@ -212,8 +210,8 @@ Status GlPatches::addIdMap(std::uint32_t mesh) {
   return checkGl("uploading an id map");
 }
 
-Status GlPatches::addProgram(int bands, Encoding encoding) {
-  const ProgramKey key(bands, encoding);
+Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
+  const ProgramKey key(bands, encoding, filter);
   if (programs_.contains(key)) return Status::ok();
   // Place, normal, tangent and texture coordinates are interpolated as well.
   GLint mostVaryings = 0;
@@ -222,7 +220,7 @@ Status GlPatches::addProgram(int bands, Encoding encoding) {
   const std::string defines = fmt::format(
       "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
       "{}\n{}\n{}",
-      groupsOf(bands), interpolated, options_.biScale.filter, numbersDefine(encoding),
+      groupsOf(bands), interpolated, filter, numbersDefine(encoding),
       unrolledDefines(bands, encoding), footprintDefines());
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",
@@ -238,14 +236,19 @@ Status GlPatches::addProgram(int bands, Encoding encoding) {
   return Status::ok();
 }
 
-Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
+Status GlPatches::add(std::uint32_t index, const EncodedMesh& shown,
+                      std::optional<shade::MacroTransport> macro, TransferOnGpu& transfer) {
   const scene::Mesh& mesh = asset_->scene.meshes[index];
-  const EncodedMesh& encoded = asset_->transfer.meshes[index];
-  const EncodedBiScale& biScale = *encoded.biScale;
+  const EncodedBiScale& biScale = biScaleOf(index);
   const EncodedRtt& rtt = rttOf(index);
-  if (Status s = addRtt(biScale.rtt); !s) return s;
+  const bool filter = options_.biScale.filter;
+  if (!rtts_.contains(biScale.rtt)) {
+    Result<Rtt> made = makeRtt(biScale.rtt, filter);
+    if (!made) return made.error();
+    rtts_.emplace(biScale.rtt, std::move(*made));
+  }
   if (Status s = addIdMap(index); !s) return s;
-  if (Status s = addProgram(rtt.bands, rtt.values.encoding); !s) return s;
+  if (Status s = addProgram(rtt.bands, rtt.values.encoding, filter); !s) return s;
 
   const std::size_t perVertex =
       std::max(sizeof(PatchVertex), shade::rttStride(rtt.bands) * sizeof(float));
@@ -264,8 +267,8 @@ Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
     draw.corners = makeBuffer(batch.corners);
     draw.cornerCount = int(batch.corners.size());
     if (Status s = checkGl("uploading a mesh"); !s) return s;
-    Result<Buffer> light = transfer.incident(encoded, batch.vertices, rtt.bands,
-                                             rtts_.at(biScale.rtt).scales, options_.biScale.macro);
+    Result<Relit> light =
+        transfer.incident(shown, batch.vertices, rtt.bands, rtts_.at(biScale.rtt).scales, macro);
     if (!light) return light.error();
     draw.light = std::move(*light);
     draws_.push_back(std::move(draw));
@@ -274,12 +277,53 @@ Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
   return Status::ok();
 }
 
+Status GlPatches::choose(const shade::BiScaleOptions& biScale) {
+  if (biScale.filter != options_.biScale.filter) {
+    std::map<int, Rtt> made;
+    for (const auto& [index, rtt] : rtts_) {
+      Result<Rtt> one = makeRtt(index, biScale.filter);
+      if (!one) return one.error();
+      made.emplace(index, std::move(*one));
+      const EncodedRtt& encoded = asset_->transfer.rtts[std::size_t(index)];
+      if (Status s = addProgram(encoded.bands, encoded.values.encoding, biScale.filter); !s)
+        return s;
+    }
+    rtts_ = std::move(made);
+  }
+  options_.biScale = biScale;
+  return Status::ok();
+}
+
+Result<std::vector<Relit>> GlPatches::lightUnder(std::uint32_t mesh, const EncodedMesh& shown,
+                                                 std::optional<shade::MacroTransport> macro,
+                                                 TransferOnGpu& transfer) const {
+  std::vector<Relit> result;
+  for (const Draw& draw : draws_) {
+    if (draw.mesh != mesh) continue;
+    Result<Relit> light = transfer.incident(shown, draw.light.receivers, rttOf(mesh).bands,
+                                            rtts_.at(biScaleOf(mesh).rtt).scales, macro);
+    if (!light) return light.error();
+    result.push_back(std::move(*light));
+  }
+  return result;
+}
+
+void GlPatches::setLight(std::uint32_t mesh, std::vector<Relit> light) {
+  auto next = light.begin();
+  for (Draw& draw : draws_) {
+    if (draw.mesh != mesh) continue;
+    next->blend = std::move(draw.light.blend);
+    draw.light = std::move(*next++);
+  }
+}
+
 void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
   for (const Draw& draw : draws_) {
     const EncodedBiScale& biScale = biScaleOf(draw.mesh);
     const EncodedRtt& encoded = rttOf(draw.mesh);
     const Rtt& rtt = rtts_.at(biScale.rtt);
-    const Program& program = programs_.at({encoded.bands, encoded.values.encoding});
+    const Program& program =
+        programs_.at({encoded.bands, encoded.values.encoding, options_.biScale.filter});
     program.use();
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
@@ -297,7 +341,7 @@ void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
     glBindTextureUnit(0, rtt.texture.name());
     glBindTextureUnit(1, biScale.idMap ? idMaps_.at(draw.mesh).name() : 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, draw.vertices.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, draw.light.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, draw.light.product.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, draw.triangles.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, draw.corners.name());
     glVertexArrayElementBuffer(vertexArray, draw.corners.name());

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -11,7 +12,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
-#include "lambent/render/light_on_gpu.h"
+#include "lambent/render/transfer_on_gpu.h"
 #include "lambent/shade/bi_scale_options.h"
 
 namespace lambent::render {
@@ -31,11 +32,34 @@ class GlPatches {
   GlPatches(const asset::Asset& asset, const GlPatchOptions& options)
       : asset_(&asset), options_(options) {}
 
-  /// Uploads a mesh with meso-structure and all that it needs, and lights it.
-  Status add(std::uint32_t mesh, TransferOnGpu& transfer);
+  /// Uploads a mesh with meso-structure and all that it needs. `shown` and `macro`: its transfer,
+  /// as TransferOnGpu::incident takes it.
+  Status add(std::uint32_t mesh, const encode::EncodedMesh& shown,
+             std::optional<shade::MacroTransport> macro, TransferOnGpu& transfer);
+  /// Filter and dependence on the view, which need no other transfer.
+  Status choose(const shade::BiScaleOptions& biScale);
+
+  /// The light of a mesh under other transfer: as many as it has pieces, to be given to setLight.
+  Result<std::vector<Relit>> lightUnder(std::uint32_t mesh, const encode::EncodedMesh& shown,
+                                        std::optional<shade::MacroTransport> macro,
+                                        TransferOnGpu& transfer) const;
+  void setLight(std::uint32_t mesh, std::vector<Relit> light);
+  /// Calls each(mesh, relit) for every piece.
+  template <class Each>
+  void forEach(Each each) {
+    for (Draw& draw : draws_) each(draw.mesh, draw.light);
+  }
+
   /// Draws them into the bound framebuffer: radiance, and 1 in alpha. A vertex array must be bound;
   /// its element buffer is changed.
   void draw(const GlView& view, GLuint vertexArray) const;
+  /// Calls draw(mesh, vertices, corners, count) for every piece: vertices hold positions and
+  /// texture coordinates where unlit.vert.glsl seeks them.
+  template <class DrawUnlit>
+  void drawUnlit(DrawUnlit drawPiece) const {
+    for (const Draw& draw : draws_)
+      drawPiece(draw.mesh, draw.vertices.name(), draw.corners.name(), draw.cornerCount);
+  }
 
  private:
   struct Level {
@@ -48,16 +72,17 @@ class GlPatches {
     std::vector<Level> levels;
     std::vector<float> scales;  ///< of its coefficients: what the light is multiplied with
   };
-  using ProgramKey = std::tuple<int, encode::Encoding>;  ///< bands, encoding
+  using ProgramKey = std::tuple<int, encode::Encoding, bool>;  ///< bands, encoding, filter
   struct Draw {
     std::uint32_t mesh = 0;
-    Buffer vertices, light, triangles, corners;
+    Buffer vertices, triangles, corners;
+    Relit light;
     int cornerCount = 0;
   };
 
-  Status addRtt(int index);
+  Result<Rtt> makeRtt(int index, bool filter) const;
   Status addIdMap(std::uint32_t mesh);
-  Status addProgram(int bands, encode::Encoding encoding);
+  Status addProgram(int bands, encode::Encoding encoding, bool filter);
   const encode::EncodedBiScale& biScaleOf(std::uint32_t mesh) const {
     return *asset_->transfer.meshes[mesh].biScale;
   }

@@ -4,19 +4,15 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "lambent/radiometry/tone.h"
 #include "lambent/render/shader_sources.h"
+#include "lambent/shade/macro_transport.h"
 
 namespace lambent::render {
 namespace {
 
 using transport::Layout;
-
-// Mirrors look the environment up in a picture of it. Twice the usual size of such pictures, so
-// that resampling one costs no sharpness that a curved mirror could show.
-constexpr int kEnvironmentWidth = 2048, kEnvironmentHeight = 1024;
 
 // As in surface.frag.glsl.
 enum class SurfaceKind { Vertices = 0, Texels = 1, Mirror = 2, Black = 3 };
@@ -75,14 +71,14 @@ int GlScene::lobeBandsOf(std::uint32_t mesh) const {
   return transfer.layout != Layout::None && !transfer.matrices.empty() ? transfer.outBands : 0;
 }
 
-Status GlScene::addTexture(int index, const GlSceneOptions& options) {
+Status GlScene::addTexture(int index) {
   if (index < 0 || textures_.contains(index)) return Status::ok();
   const scene::Texture& from = asset_->scene.textures[index];
-  if (from.width > options.largestTexture || from.height > options.largestTexture)
+  if (from.width > options_.largestTexture || from.height > options_.largestTexture)
     return report::failed(fmt::format(
         "texture {} '{}' has {}×{} texels, but this OpenGL takes {} a side. Make it smaller, or "
         "make the picture on the CPU",
-        index, from.name, from.width, from.height, options.largestTexture));
+        index, from.name, from.width, from.height, options_.largestTexture));
   Texture texture = makeTexture(GL_RGBA8UI, from.width, from.height);
   glTextureSubImage2D(texture.name(), 0, 0, 0, from.width, from.height, GL_RGBA_INTEGER,
                       GL_UNSIGNED_BYTE, from.rgba.data());
@@ -98,7 +94,8 @@ Status GlScene::addProgram(int lobeBands) {
                       std::string(shaderSource("sh.glsl"))};
   else
     fragment.parts = {"#define LAMBENT_GLOSSY 0"};
-  fragment.parts.emplace_back(shaderSource("surface.frag.glsl"));
+  for (const char* part : {"base_color.glsl", "environment.glsl", "surface.frag.glsl"})
+    fragment.parts.emplace_back(shaderSource(part));
   const Program::Stage stages[] = {
       {GL_VERTEX_SHADER, "surface.vert.glsl", {std::string(shaderSource("surface.vert.glsl"))}},
       std::move(fragment)};
@@ -108,83 +105,63 @@ Status GlScene::addProgram(int lobeBands) {
   return Status::ok();
 }
 
-Status GlScene::addEnvironment(const light::Environment& environment,
-                               const GlSceneOptions& options) {
-  const int width = std::min(kEnvironmentWidth, options.largestTexture);
-  const int height = std::min(kEnvironmentHeight, options.largestTexture);
-  std::vector<float> texels(std::size_t(width) * height * 4, 1.0f);
-  tbb::parallel_for(0, height, [&](int y) {
-    const double elevation = kPi * (0.5 - (y + 0.5) / height);
-    for (int x = 0; x < width; ++x) {
-      const double azimuth = 2.0 * kPi * ((x + 0.5) / width - 0.5);
-      const Vec3d direction(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-                            std::cos(elevation) * std::sin(azimuth));
-      const Rgb radiance = environment.radiance(direction.cast<float>());
-      for (int c = 0; c < 3; ++c) texels[(std::size_t(y) * width + x) * 4 + c] = radiance[c];
-    }
-  });
-  environment_ = makeTexture(GL_RGBA32F, width, height);
-  glTextureSubImage2D(environment_.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT,
-                      texels.data());
-  return checkGl("uploading the environment");
-}
-
-Result<std::size_t> GlScene::addLit(const encode::EncodedMesh& mesh,
-                                    const std::vector<std::uint32_t>& receivers,
-                                    TransferOnGpu& transfer, const GlSceneOptions& options) {
+Result<GlScene::Lit> GlScene::makeLit(std::uint32_t index, const encode::EncodedMesh& shown,
+                                      const std::vector<std::uint32_t>& receivers,
+                                      std::optional<float> lobeExponent) {
   Lit lit;
-  if (!mesh.vectors.empty()) {
-    Result<Buffer> made = transfer.diffuse(mesh, receivers);
+  lit.mesh = index;
+  if (!shown.vectors.empty()) {
+    Result<Relit> made = transfer_.diffuse(shown, receivers);
     if (!made) return made.error();
     lit.diffuse = std::move(*made);
   }
-  if (!mesh.matrices.empty()) {
-    Result<Buffer> made = transfer.lobe(mesh, receivers, options.lobeExponent);
+  if (!shown.matrices.empty()) {
+    Result<Relit> made = transfer_.lobe(shown, receivers, lobeExponent);
     if (!made) return made.error();
     lit.lobe = std::move(*made);
   }
-  lit_.push_back(std::move(lit));
-  return lit_.size() - 1;
+  return lit;
 }
 
-Status GlScene::addMesh(std::uint32_t index, TransferOnGpu& transfer,
-                        const GlSceneOptions& options) {
+Status GlScene::addMesh(std::uint32_t index, const encode::EncodedMesh& shown,
+                        std::optional<shade::MacroTransport> macro) {
   const scene::Mesh& mesh = asset_->scene.meshes[index];
-  const encode::EncodedMesh& encoded = asset_->transfer.meshes[index];
-  if (encoded.biScale && !materialOf(index).isMirror()) return patches_.add(index, transfer);
-  const bool texels = encoded.layout == Layout::Texels && !materialOf(index).isMirror();
-  const bool vertices = encoded.layout == Layout::Vertices && !materialOf(index).isMirror();
+  if (Status s = addTexture(textureOf(index)); !s) return s;
+  if (isPatched(index)) return patches_.add(index, shown, macro, transfer_);
+  const bool mirror = materialOf(index).isMirror();
+  const bool texels = shown.layout == Layout::Texels && !mirror;
+  const bool vertices = shown.layout == Layout::Vertices && !mirror;
   const std::size_t perReceiver =
-      std::max(3 * sizeof(float), encoded.matrices.empty() ? 0 : lobeBytes(encoded.outBands));
+      std::max(Relit::kBlendBytes, shown.matrices.empty() ? 0 : lobeBytes(shown.outBands));
   const std::size_t perVertex =
       vertices ? std::max(sizeof(GpuVertex), perReceiver) : sizeof(GpuVertex);
-  if (options.largestBlock < 4 * perVertex)
-    return report::failed(fmt::format("this OpenGL's storage buffers of {} bytes are too small",
-                                      options.largestBlock));
-  if (Status s = addTexture(textureOf(index), options); !s) return s;
+  const std::size_t largestBlock = options_.largestBlock;
+  if (largestBlock < 4 * perVertex)
+    return report::failed(
+        fmt::format("this OpenGL's storage buffers of {} bytes are too small", largestBlock));
   if (Status s = addProgram(texels || vertices ? lobeBandsOf(index) : 0); !s) return s;
 
   std::vector<std::pair<RowBand, std::size_t>> litRows;
   if (texels) {
     const std::vector<RowBand> bands =
-        splitRows(encoded.width, encoded.height, options.largestBlock / perReceiver);
+        splitRows(shown.width, shown.height, largestBlock / perReceiver);
     if (bands.empty())
       return report::failed(fmt::format(
           "mesh {} '{}': two rows of its {}×{} texels do not fit into this OpenGL's storage "
           "buffers of {} bytes. Make the picture on the CPU",
-          index, mesh.name, encoded.width, encoded.height, options.largestBlock));
+          index, mesh.name, shown.width, shown.height, largestBlock));
     for (const RowBand& band : bands) {
-      std::vector<std::uint32_t> receivers(std::size_t(band.last - band.begin + 1) * encoded.width);
-      std::iota(receivers.begin(), receivers.end(), std::uint32_t(band.begin) * encoded.width);
-      const Result<std::size_t> lit = addLit(encoded, receivers, transfer, options);
+      std::vector<std::uint32_t> receivers(std::size_t(band.last - band.begin + 1) * shown.width);
+      std::iota(receivers.begin(), receivers.end(), std::uint32_t(band.begin) * shown.width);
+      Result<Lit> lit = makeLit(index, shown, receivers, options_.lobeExponent);
       if (!lit) return lit.error();
-      litRows.emplace_back(band, *lit);
+      litRows.emplace_back(band, lit_.size());
+      lit_.push_back(std::move(*lit));
     }
   }
 
   for (const TriangleBatch& batch :
-       splitTriangles(mesh, options.largestBlock / perVertex,
-                      options.largestBlock / (3 * sizeof(std::uint32_t)))) {
+       splitTriangles(mesh, largestBlock / perVertex, largestBlock / (3 * sizeof(std::uint32_t)))) {
     Geometry geometry;
     geometry.vertices = makeBuffer(gatherVertices(mesh, batch));
     geometry.corners = makeBuffer(batch.corners);
@@ -201,9 +178,10 @@ Status GlScene::addMesh(std::uint32_t index, TransferOnGpu& transfer,
       }
     } else {
       if (vertices) {
-        const Result<std::size_t> lit = addLit(encoded, batch.vertices, transfer, options);
+        Result<Lit> lit = makeLit(index, shown, batch.vertices, options_.lobeExponent);
         if (!lit) return lit.error();
-        draw.lit = *lit;
+        draw.lit = lit_.size();
+        lit_.push_back(std::move(*lit));
       }
       draws_.push_back(draw);
     }
@@ -211,38 +189,164 @@ Status GlScene::addMesh(std::uint32_t index, TransferOnGpu& transfer,
   return Status::ok();
 }
 
-Result<GlScene> GlScene::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
-                              const light::Environment& environment,
-                              const GlSceneOptions& options) {
-  GlScene scene(asset, options);
+/// Where nothing is between the light and meso-structure that is relit again and again, rotations
+/// into the tangent frames stand for macro transport: once made, a new light costs no CPU time.
+shade::ShownTransfer GlScene::shownTransfer(std::uint32_t mesh, shade::TransferChoice transfer,
+                                            std::optional<shade::MacroTransport>& macro) const {
+  using shade::MacroTransport, shade::TransferChoice;
+  if (keeps_ && isPatched(mesh)) {
+    const encode::EncodedBiScale& biScale = *asset_->transfer.meshes[mesh].biScale;
+    const bool holdsNone = shade::bestOf(biScale) == MacroTransport::Off;
+    if (macro == MacroTransport::Off || (!macro && holdsNone)) {
+      macro.reset();
+      transfer = TransferChoice::Unshadowed;
+    }
+  }
+  return shade::ShownTransfer(*asset_, mesh, transfer, macro);
+}
+
+Status GlScene::addAll() {
   GLuint vertexArray = 0;
   glCreateVertexArrays(1, &vertexArray);
-  scene.noAttributes_ = VertexArray(vertexArray);
+  noAttributes_ = VertexArray(vertexArray);
   std::vector<float> table(256);
   for (int i = 0; i < 256; ++i) table[i] = radiometry::srgbDecode(float(i) / 255.0f);
-  scene.srgbTable_ = makeBuffer(table);
-
-  TransferOnGpu transfer(light, options.largestBlock);
-  bool mirrors = false;
-  for (std::uint32_t mesh = 0; mesh < asset.scene.meshes.size(); ++mesh) {
-    if (Status s = scene.addMesh(mesh, transfer, options); !s) return s.error();
-    mirrors = mirrors || scene.materialOf(mesh).isMirror();
+  srgbTable_ = makeBuffer(table);
+  for (std::uint32_t mesh = 0; mesh < asset_->scene.meshes.size(); ++mesh) {
+    std::optional<shade::MacroTransport> macro = options_.biScale.macro;
+    const shade::ShownTransfer shown = shownTransfer(mesh, options_.transfer, macro);
+    if (Status s = addMesh(mesh, shown.get(), macro); !s) return s;
+    hasMirrors_ = hasMirrors_ || materialOf(mesh).isMirror();
   }
-  if (mirrors)
-    if (Status s = scene.addEnvironment(environment, options); !s) return s.error();
+  return Status::ok();
+}
+
+Result<GlScene> GlScene::make(const asset::Asset& asset, const GlSceneOptions& options) {
+  GlScene scene(asset, options, TransferOnGpu::Residence::Keep);
+  const Program::Stage stages[] = {
+      {GL_VERTEX_SHADER, "unlit.vert.glsl", {std::string(shaderSource("unlit.vert.glsl"))}},
+      {GL_FRAGMENT_SHADER,
+       "unlit.frag.glsl",
+       {std::string(shaderSource("base_color.glsl")),
+        std::string(shaderSource("unlit.frag.glsl"))}}};
+  Result<Program> unlit = Program::make(stages);
+  if (!unlit) return unlit.error();
+  scene.unlit_ = std::move(*unlit);
+  if (Status s = scene.addAll(); !s) return s.error();
   return scene;
 }
 
-void GlScene::draw(const GlView& view) const {
+Result<GlScene> GlScene::makeLit(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                                 const GlSceneOptions& options) {
+  GlScene scene(asset, options, TransferOnGpu::Residence::Stream);
+  scene.transfer_.setLight(light);
+  if (Status s = scene.addAll(); !s) return s.error();
+  return scene;
+}
+
+template <class Each>
+void GlScene::forEachRelit(Each each) {
+  for (Lit& lit : lit_)
+    for (Relit* relit : {&lit.diffuse, &lit.lobe})
+      if (relit->product.name()) each(lit.mesh, *relit);
+  patches_.forEach(each);
+}
+
+Status GlScene::retransfer(shade::TransferChoice transfer, std::optional<float> lobeExponent,
+                           std::optional<shade::MacroTransport> macro) {
+  std::vector<Lit> lit;
+  std::map<std::uint32_t, std::vector<Relit>> patched;
+  for (std::uint32_t mesh = 0; mesh < asset_->scene.meshes.size(); ++mesh) {
+    std::optional<shade::MacroTransport> meshMacro = macro;
+    const shade::ShownTransfer shown = shownTransfer(mesh, transfer, meshMacro);
+    if (isPatched(mesh)) {
+      auto light = patches_.lightUnder(mesh, shown.get(), meshMacro, transfer_);
+      if (!light) return light.error();
+      patched.emplace(mesh, std::move(*light));
+    }
+    // As addMesh put them: mesh after mesh.
+    while (lit.size() < lit_.size() && lit_[lit.size()].mesh == mesh) {
+      const Lit& old = lit_[lit.size()];
+      const Relit& some = old.diffuse.product.name() ? old.diffuse : old.lobe;
+      Result<Lit> made = makeLit(mesh, shown.get(), some.receivers, lobeExponent);
+      if (!made) return made.error();
+      lit.push_back(std::move(*made));
+    }
+  }
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    lit[i].diffuse.blend = std::move(lit_[i].diffuse.blend);
+    lit[i].lobe.blend = std::move(lit_[i].lobe.blend);
+  }
+  lit_ = std::move(lit);
+  for (auto& [mesh, light] : patched) patches_.setLight(mesh, std::move(light));
+  return Status::ok();
+}
+
+Status GlScene::choose(shade::TransferChoice transfer, std::optional<float> lobeExponent,
+                       const shade::BiScaleOptions& biScale) {
+  if (Status s = patches_.choose(biScale); !s) return s;
+  if (transfer != options_.transfer || biScale.macro != options_.biScale.macro) {
+    if (Status s = retransfer(transfer, lobeExponent, biScale.macro); !s) {
+      // The filter and what it needs were there before.
+      (void)patches_.choose(options_.biScale);
+      return s;
+    }
+  } else if (lobeExponent != options_.lobeExponent) {
+    for (Lit& lit : lit_)
+      if (lit.lobe.product.name())
+        TransferOnGpu::setLobe(lit.lobe, asset_->transfer.meshes[lit.mesh], lobeExponent);
+  }
+  options_.transfer = transfer;
+  options_.lobeExponent = lobeExponent;
+  options_.biScale = biScale;
+  return Status::ok();
+}
+
+Status GlScene::setLightField(const capture::Blending& blending, GLuint lights, int bands) {
+  Status status = Status::ok();
+  forEachRelit([&](std::uint32_t mesh, Relit& relit) {
+    if (status) status = TransferOnGpu::setBlend(relit, blending.meshes[mesh]);
+  });
+  if (!status) return status;
+  return transfer_.setField(lights, bands);
+}
+
+Status GlScene::relight() {
+  Status status = Status::ok();
+  // What draws still read, or what a pass of the caller's has just written.
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  forEachRelit([&](std::uint32_t, Relit& relit) {
+    if (status) status = transfer_.relight(relit);
+  });
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  if (!status) return status;
+  return checkGl("applying transfer to the light");
+}
+
+void GlScene::bindTexture(const Program& program, std::uint32_t mesh) const {
+  const int texture = textureOf(mesh);
+  program.set("hasTexture", int(texture >= 0));
+  if (texture >= 0) {
+    const scene::Texture& from = asset_->scene.textures[texture];
+    program.set("wrap", wrapRule(from.wrapU), wrapRule(from.wrapV));
+  }
+  glBindTextureUnit(0, texture >= 0 ? textures_.at(texture).name() : 0);
+}
+
+void GlScene::draw(const GlView& view, const GlEnvironment* environment) const {
+  glFrontFace(view.mirrored ? GL_CW : GL_CCW);
   glBindVertexArray(noAttributes_.name());
-  glBindTextureUnit(1, environment_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, srgbTable_.name());
+  if (view.unlit) {
+    drawUnlit(view);
+    return;
+  }
   for (const Draw& draw : draws_) {
     const scene::Material& material = materialOf(draw.mesh);
     const encode::EncodedMesh& transfer = asset_->transfer.meshes[draw.mesh];
     const Geometry& geometry = geometries_[draw.geometry];
-    const int texture = textureOf(draw.mesh);
-    const SurfaceKind kind = material.isMirror()                   ? SurfaceKind::Mirror
+    const bool mirror = material.isMirror() && environment;
+    const SurfaceKind kind = mirror                                ? SurfaceKind::Mirror
                              : !draw.lit                           ? SurfaceKind::Black
                              : transfer.layout == Layout::Vertices ? SurfaceKind::Vertices
                                                                    : SurfaceKind::Texels;
@@ -253,22 +357,42 @@ void GlScene::draw(const GlView& view) const {
     program.set("kind", int(kind));
     program.set("hasDiffuse", int(draw.lit && !transfer.vectors.empty()));
     program.set("albedoOutside", int(transfer.albedo == transport::Albedo::BaseColor));
-    program.set("hasTexture", int(texture >= 0));
     program.set("mirror", material.mirror.x(), material.mirror.y(), material.mirror.z());
     program.set("grid", transfer.width, transfer.height);
     program.set("rows", draw.rows.begin, draw.rows.end);
-    if (texture >= 0) {
-      const scene::Texture& from = asset_->scene.textures[texture];
-      program.set("wrap", wrapRule(from.wrapU), wrapRule(from.wrapV));
-    }
-    glBindTextureUnit(0, texture >= 0 ? textures_.at(texture).name() : 0);
+    bindTexture(program, draw.mesh);
+    if (mirror) environment->bind(program, view.environmentFromWorld);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, geometry.corners.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, draw.lit ? lit_[*draw.lit].diffuse.name() : 0);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, draw.lit ? lit_[*draw.lit].lobe.name() : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2,
+                     draw.lit ? lit_[*draw.lit].diffuse.product.name() : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3,
+                     draw.lit ? lit_[*draw.lit].lobe.product.name() : 0);
     glDrawArrays(GL_TRIANGLES, 0, geometry.cornerCount);
   }
   patches_.draw(view, noAttributes_.name());
+}
+
+void GlScene::drawUnlit(const GlView& view) const {
+  unlit_.use();
+  unlit_.setMatrix("clipFromWorld", view.clipFromWorld.data());
+  const auto drawPiece = [&](std::uint32_t mesh, GLuint vertices, GLuint corners, int count) {
+    const scene::Material& material = materialOf(mesh);
+    const Rgb reflectance =
+        material.isMirror() ? material.mirror : Rgb(material.diffuse + material.glossy);
+    unlit_.set("reflectance", reflectance.x(), reflectance.y(), reflectance.z());
+    unlit_.set("hasColor", int(!asset_->scene.meshes[mesh].colors.empty() && !isPatched(mesh)));
+    bindTexture(unlit_, mesh);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices);
+    glVertexArrayElementBuffer(noAttributes_.name(), corners);
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+  };
+  for (const Draw& draw : draws_) {
+    if (draw.rows.begin > 0) continue;  // the first band of texels draws the whole of the piece
+    const Geometry& geometry = geometries_[draw.geometry];
+    drawPiece(draw.mesh, geometry.vertices.name(), geometry.corners.name(), geometry.cornerCount);
+  }
+  patches_.drawUnlit(drawPiece);
 }
 
 }  // namespace lambent::render

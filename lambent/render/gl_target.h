@@ -1,24 +1,44 @@
-// What frames are drawn into, and the sum of them.
+// What frames are drawn into, the sum of them, and the picture that the sum makes.
 #pragma once
 
 #include "lambent/image/image.h"
+#include "lambent/radiometry/tone.h"
+#include "lambent/render/gl_environment.h"
 #include "lambent/render/gl_objects.h"
+#include "lambent/render/gl_view.h"
 
 namespace lambent::render {
 
-struct GlTarget {
-  Texture color, depth, sum;
-  Framebuffer framebuffer;
-  Program accumulate;
-  int width = 0, height = 0;
-
+class GlTarget {
+ public:
   static Result<GlTarget> make(int width, int height);
-  /// Black and without coverage, at the far plane.
-  void clear() const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Linear radiance with coverage in alpha, and depth.
+  GLuint framebuffer() const { return framebuffer_.name(); }
+
+  /// Binds the frame to be drawn into: black and without coverage, at the far plane.
+  void beginFrame() const;
+  /// The sum: nothing.
   void clearSum() const;
-  void addToSum() const;
-  /// The mean of `samples` frames.
+  /// Adds the frame to the sum and, if there is one, what the environment shows where the frame
+  /// leaves pixels uncovered.
+  void addToSum(const GlView& view, const GlEnvironment* background) const;
+  /// The mean of `samples` frames: radiance and coverage. Where backgrounds were added, they are
+  /// left out.
   Result<image::Image> mean(int samples) const;
+  /// The mean over its background as shade::finishPicture, without alpha.
+  Result<image::Image> meanOverBackground(int samples) const;
+  /// The same onto the whole of a framebuffer of this size, exposed and coded for a screen.
+  void show(int samples, GLuint framebuffer, float exposureEv, radiometry::ToneCurve curve) const;
+
+ private:
+  Texture color_, depth_, sum_, behind_;
+  Framebuffer framebuffer_;
+  VertexArray noAttributes_;
+  Program accumulate_, accumulateWithBackground_, show_;
+  int width_ = 0, height_ = 0;
 };
 
 }  // namespace lambent::render

@@ -1,7 +1,9 @@
-// From where a frame is seen, as shaders want it.
+// From where a frame is seen, as shaders want it. "World" is where the scene's vertices are: for an
+// asset that moves, its own frame.
 #pragma once
 
 #include "lambent/math/types.h"
+#include "lambent/scene/camera.h"
 #include "lambent/shade/rtt_footprint.h"
 
 namespace lambent::render {
@@ -11,6 +13,17 @@ struct GlView {
   /// The camera's position and 1, or the unit direction to an orthographic one and 0.
   Eigen::Matrix<float, 4, 1, Eigen::DontAlign> eye;
   shade::SampleWidth sampleWidth;
+  Mat3 environmentFromWorld = Mat3::Identity();
+  bool unlit = false;     ///< base colours alone
+  bool mirrored = false;  ///< the camera's matrix turns right into left
+  /// The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up;
+  /// not unit.
+  Vec3 corner, right, up;
 };
+
+/// A frame of width×height pixels, seen through `place` of each (from its upper left corner), one
+/// of `samples`. Near and far are fitted to `box`.
+GlView viewThrough(const scene::Camera& camera, int width, int height, const scene::Box& box,
+                   const Vec2& place, int samples);
 
 }  // namespace lambent::render

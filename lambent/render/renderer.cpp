@@ -8,7 +8,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <Eigen/LU>
 
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_scene.h"
@@ -20,22 +19,6 @@ namespace {
 
 constexpr std::size_t kLargestBlock = std::size_t(128) << 20;
 
-/// clipFromWorld, shifted so that what stands at `place` of each pixel (from its upper left corner)
-/// comes to stand at the pixel's centre, which is where GL samples.
-Mat4 shifted(const Mat4& clipFromWorld, const Vec2& place, int width, int height) {
-  Mat4 result = clipFromWorld;
-  result.row(0) += (0.5f - place.x()) * 2.0f / float(width) * clipFromWorld.row(3);
-  result.row(1) -= (0.5f - place.y()) * 2.0f / float(height) * clipFromWorld.row(3);
-  return result;
-}
-
-Eigen::Vector4f eyeOf(const scene::Camera& camera) {
-  const Eigen::Vector3f back = camera.worldFromCamera.block<3, 1>(0, 2).normalized();
-  const Eigen::Vector3f position = camera.worldFromCamera.block<3, 1>(0, 3);
-  if (camera.orthographicHalfHeight) return {back.x(), back.y(), back.z(), 0.0f};
-  return {position.x(), position.y(), position.z(), 1.0f};
-}
-
 }  // namespace
 
 struct Renderer::Impl {
@@ -46,19 +29,15 @@ struct Renderer::Impl {
   GlContext context;
   GlTarget target;
   GlScene scene;
+  std::optional<GlEnvironment> inMirrors;
 
   /// One frame, seen through `place` of every pixel.
-  void draw(const scene::Camera& camera, const Vec2& place) const {
-    const int width = options.width, height = options.height;
-    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
-    glViewport(0, 0, width, height);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
-    const float handedness = camera.worldFromCamera.topLeftCorner<3, 3>().determinant();
-    glFrontFace(handedness > 0.0f ? GL_CCW : GL_CW);
-    target.clear();
-    scene.draw({shifted(scene::clipFromWorld(camera, width, height, bounds), place, width, height),
-                eyeOf(camera), shade::sampleWidth(camera, height, options.samples)});
+  GlView draw(const scene::Camera& camera, const Vec2& place) const {
+    const GlView view =
+        viewThrough(camera, options.width, options.height, bounds, place, options.samples);
+    target.beginFrame();
+    scene.draw(view, inMirrors ? &*inMirrors : nullptr);
+    return view;
   }
 };
 
@@ -79,25 +58,33 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   if (Status s = shade::checkPicture(asset, light, {}, options); !s) return s.error();
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
+  const GlLimits limits = limitsOfGl();
   const int width = options.width, height = options.height;
-  if (width > context->largestTexture() || height > context->largestTexture())
+  if (width > limits.largestTexture || height > limits.largestTexture)
     return report::failed(fmt::format(
         "a picture of {}×{} pixels: this OpenGL makes {} a side. Ask for fewer, or make the "
         "picture on the CPU",
-        width, height, context->largestTexture()));
+        width, height, limits.largestTexture));
 
   GlSceneOptions sceneOptions;
-  sceneOptions.largestBlock = std::min(largestBlock, context->largestStorageBlock());
-  sceneOptions.largestTexture = context->largestTexture();
+  sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
+  sceneOptions.largestTexture = limits.largestTexture;
   sceneOptions.lobeExponent = options.lobeExponent;
   sceneOptions.biScale = options.biScale;
-  Result<GlScene> scene = GlScene::make(asset, light, environment, sceneOptions);
+  sceneOptions.transfer = options.transfer;
+  Result<GlScene> scene = GlScene::makeLit(asset, light, sceneOptions);
   if (!scene) return scene.error();
+  std::optional<GlEnvironment> inMirrors;
+  if (scene->hasMirrors()) {
+    Result<GlEnvironment> made = GlEnvironment::make(environment, limits.largestTexture);
+    if (!made) return made.error();
+    inMirrors = std::move(*made);
+  }
   Result<GlTarget> target = GlTarget::make(width, height);
   if (!target) return target.error();
-  return Renderer(
-      std::unique_ptr<Impl>(new Impl{environment, options, scene::bounds(asset.scene),
-                                     std::move(*context), std::move(*target), std::move(*scene)}));
+  return Renderer(std::unique_ptr<Impl>(new Impl{environment, options, scene::bounds(asset.scene),
+                                                 std::move(*context), std::move(*target),
+                                                 std::move(*scene), std::move(inMirrors)}));
 }
 
 Status Renderer::drawFrame(const scene::Camera& camera) {
@@ -112,8 +99,7 @@ Result<image::Image> Renderer::picture(const scene::Camera& camera, const Progre
   const std::vector<Vec2> places = scene::subpixelPositions(impl_->options.samples);
   impl_->target.clearSum();
   for (std::size_t i = 0; i < places.size(); ++i) {
-    impl_->draw(camera, places[i]);
-    impl_->target.addToSum();
+    impl_->target.addToSum(impl_->draw(camera, places[i]), nullptr);
     if (Status s = checkGl("drawing"); !s) return s.error();
     if (progress) {
       glFinish();

@@ -75,16 +75,22 @@ void expectAgreement(const std::string& name, const asset::Asset& asset,
   const Result<Image> gl =
       pictureInBlocks(asset, light, sky, camera, options, agreement.largestBlock);
   ASSERT_TRUE(gl) << gl.error().message;
-  keep(*cpu, name + "-cpu");
-  keep(*gl, name + "-gl");
-  const Difference d = difference(*cpu, *gl);
+  expectSame(name, *cpu, *gl, agreement);
+}
+
+void expectSame(const std::string& name, const Image& cpu, const Image& gl,
+                const Agreement& agreement) {
+  keep(cpu, name + "-cpu");
+  keep(gl, name + "-gl");
+  ASSERT_EQ(cpu.alpha.size(), gl.alpha.size());
+  const Difference d = difference(cpu, gl);
   testing::Test::RecordProperty("mean", std::to_string(d.mean));
   testing::Test::RecordProperty("interior", std::to_string(d.interior));
   EXPECT_LT(d.mean, agreement.mean) << name;
   EXPECT_LT(d.interior, agreement.interior) << name;
   EXPECT_LT(d.alpha, 5e-4) << name;
   Rgb brightest = Rgb::Zero();
-  for (const Rgb& pixel : gl->pixels) brightest = brightest.max(pixel);
+  for (const Rgb& pixel : gl.pixels) brightest = brightest.max(pixel);
   EXPECT_GT(brightest.minCoeff(), 0.05f) << name << " is black";
 }
 

@@ -22,4 +22,8 @@ void expectAgreement(const std::string& name, const asset::Asset& asset,
                      const scene::Camera& camera, const shade::PictureOptions& options,
                      const Agreement& agreement = {});
 
+/// The same of two pictures that were made already.
+void expectSame(const std::string& name, const image::Image& cpu, const image::Image& gl,
+                const Agreement& agreement = {});
+
 }  // namespace lambent::render::test

@@ -99,8 +99,7 @@ Status checkCamera(const scene::Camera& camera) {
   return Status::ok();
 }
 
-Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
-                    const scene::Camera& camera, const PictureOptions& options) {
+Status checkOptions(const PictureOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > kLargestSide ||
       options.height > kLargestSide)
     return report::badUsage(fmt::format("a picture of {}×{} pixels: each side can be 1 to {}",
@@ -111,6 +110,12 @@ Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
   if (options.lobeExponent && !(*options.lobeExponent >= 0.0f && *options.lobeExponent < 1e6f))
     return report::badUsage(
         fmt::format("a lobe exponent of {}: 0 to 1e6 can be", *options.lobeExponent));
+  return Status::ok();
+}
+
+Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                    const scene::Camera& camera, const PictureOptions& options) {
+  if (Status s = checkOptions(options); !s) return s;
   if (light.bands < 1 || light.values.size() != 3u * sh::coefficientCount(light.bands))
     return report::badInput("a light without bands, or with too few numbers for them");
   if (Status s = checkCamera(camera); !s) return s;

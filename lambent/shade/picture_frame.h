@@ -9,6 +9,9 @@ namespace lambent::shade {
 /// Whether a camera's matrix is a placement in space.
 Status checkCamera(const scene::Camera& camera);
 
+/// Whether size, samples and lobe are in range.
+Status checkOptions(const PictureOptions& options);
+
 /// Whether scene, transfer, light, camera and options fit together. Bad input names the mesh.
 Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
                     const scene::Camera& camera, const PictureOptions& options);

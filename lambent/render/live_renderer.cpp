@@ -1,0 +1,290 @@
+// This work is based on:
+// - sloan2002precomputed: run-time rendering of radiance transfer, §6. Transfer stays in the
+// asset's
+//   own frame: light, camera and environment are brought there, which is a few numbers a frame
+//   (step 2: "it is more efficient to rotate the few radiance samples").
+
+#include "lambent/render/live_renderer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "lambent/render/gl_scene.h"
+#include "lambent/render/gl_state.h"
+#include "lambent/render/gl_target.h"
+#include "lambent/shade/check_bi_scale.h"
+#include "lambent/shade/picture_frame.h"
+
+namespace lambent::render {
+namespace {
+
+constexpr std::size_t kLargestBlock = std::size_t(128) << 20;
+
+shade::PictureOptions pictureOptions(const LiveOptions& options) {
+  shade::PictureOptions result;
+  result.transfer = options.transfer;
+  result.lobeExponent = options.lobeExponent;
+  result.biScale = options.biScale;
+  return result;
+}
+
+Status checkView(const LiveView& view) {
+  if (Status s = shade::checkCamera(view.camera); !s) return s;
+  const auto isRotation = [](const Mat3& m) {
+    return m.allFinite() && (m.transpose() * m - Mat3::Identity()).norm() < 1e-3f &&
+           m.determinant() > 0.0f;
+  };
+  if (!isRotation(view.worldFromAsset.topLeftCorner<3, 3>()) || !view.worldFromAsset.allFinite())
+    return report::badUsage("an asset can be turned and moved, but not scaled or mirrored");
+  if (!isRotation(view.worldFromEnvironment))
+    return report::badUsage("an environment can be turned, but not scaled or mirrored");
+  return Status::ok();
+}
+
+/// A box around `box` after it was moved.
+scene::Box moved(const scene::Box& box, const Mat4& dstFromSrc) {
+  scene::Box result;
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
+    const Vec3 p((corner & 1 ? box.upper : box.lower).x(), (corner & 2 ? box.upper : box.lower).y(),
+                 (corner & 4 ? box.upper : box.lower).z());
+    result.extend(dstFromSrc.topLeftCorner<3, 3>() * p + dstFromSrc.topRightCorner<3, 1>());
+  }
+  return result;
+}
+
+}  // namespace
+
+struct LiveRenderer::Impl {
+  const asset::Asset& asset;
+  LiveOptions options;
+  scene::Box bounds;
+  GlLimits limits;
+  GlScene scene;
+  std::optional<GlTarget> target;
+
+  light::Environment environment;
+  std::optional<GlEnvironment> environmentOnGpu;  ///< made when something shows it
+
+  bool hasLight = false, stale = false;  ///< stale: M · L is due
+  int samples = 0;                       ///< of the picture, the one that is pending included
+  bool background = false;               ///< of the last frame
+  /// The frame that others may still draw into, and that is not yet in the sum.
+  std::optional<GlView> pending;
+  Mat4 clipFromWorld = Mat4::Identity();
+
+  Status show(const LiveView& view) {
+    if ((view.background || scene.hasMirrors()) && !environmentOnGpu) {
+      Result<GlEnvironment> made = GlEnvironment::make(environment, limits.largestTexture);
+      if (!made) return made.error();
+      environmentOnGpu = std::move(*made);
+    }
+    return Status::ok();
+  }
+
+  void fold() {
+    if (!pending) return;
+    target->addToSum(*pending, background ? &*environmentOnGpu : nullptr);
+    pending.reset();
+  }
+};
+
+LiveRenderer::LiveRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+LiveRenderer::LiveRenderer(LiveRenderer&&) noexcept = default;
+LiveRenderer& LiveRenderer::operator=(LiveRenderer&&) noexcept = default;
+LiveRenderer::~LiveRenderer() = default;
+
+Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const LiveOptions& options) {
+  return make(asset, options, kLargestBlock);
+}
+
+Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const LiveOptions& options,
+                                        std::size_t largestBlock) {
+  if (Status s = shade::checkPicture(asset, sh::RgbCoefficients(1), {}, pictureOptions(options));
+      !s)
+    return s.error();
+  if (epoxy_gl_version() < 45)
+    return report::failed(fmt::format(
+        "this context has OpenGL {}.{}, but 4.5 is needed. Install a newer driver, or Mesa (on "
+        "Debian: libgl1-mesa-dri)",
+        epoxy_gl_version() / 10, epoxy_gl_version() % 10));
+  const GlStateGuard guard;
+  const GlLimits limits = limitsOfGl();
+  GlSceneOptions sceneOptions;
+  sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
+  sceneOptions.largestTexture = limits.largestTexture;
+  sceneOptions.transfer = options.transfer;
+  sceneOptions.lobeExponent = options.lobeExponent;
+  sceneOptions.biScale = options.biScale;
+  Result<GlScene> scene = GlScene::make(asset, sceneOptions);
+  if (!scene) return scene.error();
+  return LiveRenderer(std::unique_ptr<Impl>(new Impl{asset,
+                                                     options,
+                                                     scene::bounds(asset.scene),
+                                                     limits,
+                                                     std::move(*scene),
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     false,
+                                                     false,
+                                                     0,
+                                                     false,
+                                                     {},
+                                                     Mat4::Identity()}));
+}
+
+Status LiveRenderer::choose(const LiveOptions& options) {
+  if (Status s = shade::checkOptions(pictureOptions(options)); !s) return s;
+  if (options.biScale.macro != impl_->options.biScale.macro)
+    if (Status s = shade::checkBiScale(impl_->asset, options.biScale); !s) return s;
+  const GlStateGuard guard;
+  if (Status s = impl_->scene.choose(options.transfer, options.lobeExponent, options.biScale); !s)
+    return s;
+  impl_->options = options;
+  impl_->stale = impl_->hasLight;
+  return Status::ok();
+}
+
+Status LiveRenderer::setEnvironment(const light::Environment& environment) {
+  const GlStateGuard guard;
+  impl_->fold();  // as it was seen
+  impl_->environment = environment;
+  impl_->environmentOnGpu.reset();
+  return Status::ok();
+}
+
+void LiveRenderer::setLight(const sh::RgbCoefficients& assetLight) {
+  assert(assetLight.bands >= 1 && assetLight.bands <= sh::kMaxBands);
+  impl_->scene.setLight(assetLight);
+  impl_->hasLight = impl_->stale = true;
+}
+
+Status LiveRenderer::setLightField(const capture::Blending& blending, unsigned lightBuffer,
+                                   int bands) {
+  const encode::EncodedField& transfer = impl_->asset.transfer;
+  if (bands < 1 || bands > sh::kMaxBands)
+    return report::badUsage(
+        fmt::format("a light field of {} bands: 1 to {} can be", bands, sh::kMaxBands));
+  if (blending.meshes.size() != transfer.meshes.size())
+    return report::badUsage(fmt::format("blending for {} meshes, but the asset has {}",
+                                        blending.meshes.size(), transfer.meshes.size()));
+  for (std::size_t m = 0; m < transfer.meshes.size(); ++m) {
+    const std::size_t receivers = transfer.meshes[m].receiverCount();
+    if (receivers > 0 && blending.meshes[m].size() != receivers)
+      return report::badUsage(fmt::format("blending for {} receivers of mesh {}, which has {}",
+                                          blending.meshes[m].size(), m, receivers));
+    for (const capture::BlendWeights& weights : blending.meshes[m])
+      for (int k = 0; k < 4; ++k)
+        if (weights.weight[k] != 0.0f && weights.sample[k] >= blending.samples.size())
+          return report::badUsage(fmt::format("blending names sample {}, but there are {}",
+                                              weights.sample[k], blending.samples.size()));
+  }
+  GLint64 bytes = 0;
+  if (!glIsBuffer(lightBuffer)) return report::badUsage("a light field without a buffer");
+  glGetNamedBufferParameteri64v(lightBuffer, GL_BUFFER_SIZE, &bytes);
+  const std::size_t needed =
+      blending.samples.size() * 3 * std::size_t(sh::coefficientCount(bands)) * sizeof(float);
+  if (std::size_t(bytes) < needed)
+    return report::badUsage(
+        fmt::format("a light field's buffer of {} bytes, where {} samples of {} bands take {}",
+                    bytes, blending.samples.size(), bands, needed));
+  const GlStateGuard guard;
+  if (Status s = impl_->scene.setLightField(blending, lightBuffer, bands); !s) return s;
+  impl_->hasLight = impl_->stale = true;
+  return Status::ok();
+}
+
+void LiveRenderer::lightChanged() {
+  impl_->stale = impl_->hasLight;
+}
+
+Status LiveRenderer::resize(int width, int height) {
+  if (impl_->target && impl_->target->width() == width && impl_->target->height() == height)
+    return Status::ok();
+  const int largest = impl_->limits.largestTexture;
+  if (width < 1 || height < 1 || width > largest || height > largest)
+    return report::badUsage(fmt::format("a frame of {}×{} pixels: each side can be 1 to {} here",
+                                        width, height, largest));
+  Result<GlTarget> made = GlTarget::make(width, height);
+  if (!made) return made.error();
+  impl_->pending.reset();
+  impl_->samples = 0;
+  impl_->target = std::move(*made);
+  return Status::ok();
+}
+
+void LiveRenderer::begin() {
+  impl_->pending.reset();
+  impl_->samples = 0;
+  if (impl_->target) impl_->target->clearSum();
+}
+
+Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
+  if (!impl_->target) return report::badUsage("a frame without a size: call resize() first");
+  if (Status s = checkView(view); !s) return s;
+  const GlStateGuard guard;
+  impl_->fold();
+  if (Status s = impl_->show(view); !s) return s;
+  if (impl_->stale && !view.unlit) {
+    if (Status s = impl_->scene.relight(); !s) return s;
+    impl_->stale = false;
+  }
+
+  const Mat4 assetFromWorld = view.worldFromAsset.inverse();
+  scene::Camera camera = view.camera;
+  camera.worldFromCamera = assetFromWorld * view.camera.worldFromCamera;
+  scene::Box box = impl_->bounds;
+  if (!view.others.empty()) {
+    const scene::Box others = moved(view.others, assetFromWorld);
+    box.extend(others.lower);
+    box.extend(others.upper);
+  }
+  const GlTarget& target = *impl_->target;
+  GlView seen = viewThrough(camera, target.width(), target.height(), box, place, samples);
+  seen.environmentFromWorld =
+      view.worldFromEnvironment.transpose() * view.worldFromAsset.topLeftCorner<3, 3>();
+  seen.unlit = view.unlit;
+  target.beginFrame();
+  impl_->scene.draw(seen, impl_->environmentOnGpu ? &*impl_->environmentOnGpu : nullptr);
+  impl_->clipFromWorld = seen.clipFromWorld * assetFromWorld;
+  impl_->background = view.background;
+  impl_->pending = seen;
+  ++impl_->samples;
+  return checkGl("drawing a frame");
+}
+
+unsigned LiveRenderer::framebuffer() const {
+  return impl_->target ? impl_->target->framebuffer() : 0;
+}
+
+Mat4 LiveRenderer::clipFromWorld() const {
+  return impl_->clipFromWorld;
+}
+
+Status LiveRenderer::show(unsigned framebuffer, float exposureEv,
+                          radiometry::ToneCurve curve) const {
+  if (!impl_->target) return report::badUsage("a frame without a size: call resize() first");
+  const GlStateGuard guard;
+  impl_->fold();
+  impl_->target->show(impl_->samples, framebuffer, exposureEv, curve);
+  return checkGl("showing a frame");
+}
+
+Result<image::Image> LiveRenderer::picture() const {
+  if (!impl_->target || impl_->samples == 0)
+    return report::badUsage("a picture of no frames: call add() first");
+  const GlStateGuard guard;
+  impl_->fold();
+  if (impl_->background) return impl_->target->meanOverBackground(impl_->samples);
+  Result<image::Image> image = impl_->target->mean(impl_->samples);
+  if (image)
+    for (Rgb& pixel : image->pixels) pixel = pixel.max(0.0f);
+  return image;
+}
+
+}  // namespace lambent::render

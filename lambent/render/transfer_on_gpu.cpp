@@ -1,0 +1,294 @@
+#include "lambent/render/transfer_on_gpu.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "lambent/render/shader_sources.h"
+#include "lambent/shade/lit_mesh.h"
+#include "lambent/shade/lit_patch.h"
+#include "lambent/shade/macro_transport.h"
+
+namespace lambent::render {
+
+using encode::EncodedMesh;
+using encode::Encoding;
+using encode::Numbers;
+
+std::string numbersDefine(Encoding encoding) {
+  const char* kind = encoding == Encoding::Snorm8 ? "2" : encoding == Encoding::Float16 ? "1" : "0";
+  return std::string("#define LAMBENT_NUMBERS ") + kind;
+}
+
+namespace {
+
+constexpr std::size_t kStreamedBytes = std::size_t(32) << 20;  // of transfer on its way to the GPU
+constexpr std::size_t kBlendedBytes = std::size_t(16) << 20;   // of a field's light at receivers
+constexpr std::size_t kMostInvocations = 65535 * 64;           // every GL takes as many work groups
+
+template <class Number>
+std::vector<Number> gather(const std::vector<Number>& numbers, std::size_t each,
+                           std::span<const std::uint32_t> receivers) {
+  std::vector<Number> chunk(receivers.size() * each);
+  for (std::size_t p = 0; p < receivers.size(); ++p)
+    std::copy_n(numbers.begin() + receivers[p] * each, each, chunk.begin() + p * each);
+  return chunk;
+}
+
+Relit::Chunk upload(const Numbers& numbers, std::size_t each,
+                    std::span<const std::uint32_t> receivers) {
+  switch (numbers.encoding) {
+    case Encoding::Float16:
+      return {makeBuffer(gather(numbers.half, each, receivers)), {}, 0, 0, 0};
+    case Encoding::Snorm8:
+      return {makeBuffer(gather(numbers.byte, each, receivers)),
+              makeBuffer(gather(numbers.scales, each / numbers.block, receivers)), numbers.block, 0,
+              0};
+    case Encoding::Float32:
+      break;
+  }
+  return {makeBuffer(gather(numbers.single, each, receivers)), {}, 0, 0, 0};
+}
+
+/// Numbers go up in chunks of receivers, and so do scales. Where a scale spans several receivers:
+/// the numbers as floats; empty otherwise.
+Numbers asFloatsIfScalesSpan(const Numbers& numbers, std::size_t each) {
+  if (numbers.encoding != Encoding::Snorm8 || each % numbers.block == 0) return {};
+  return encode::encode(encode::decode(numbers), Encoding::Float32);
+}
+
+std::size_t bytesOf(Encoding encoding) {
+  return encoding == Encoding::Snorm8 ? 1 : encoding == Encoding::Float16 ? 2 : 4;
+}
+
+std::vector<float> interleaved(const sh::RgbCoefficients& light) {
+  std::vector<float> result;
+  for (int k = 0; k < sh::coefficientCount(light.bands); ++k)
+    for (int c = 0; c < 3; ++c) result.push_back(light.channel(c)[k]);
+  return result;
+}
+
+}  // namespace
+
+void TransferOnGpu::setLight(const sh::RgbCoefficients& light) {
+  const std::vector<float> numbers = interleaved(light);
+  if (!light_.name() || light.bands != lightOnCpu_.bands)
+    light_ = makeChangingBuffer(numbers.size() * sizeof(float));
+  glNamedBufferSubData(light_.name(), 0, GLsizeiptr(numbers.size() * sizeof(float)),
+                       numbers.data());
+  lightOnCpu_ = light;
+  bands_ = light.bands;
+  field_ = 0;
+}
+
+Status TransferOnGpu::setField(GLuint lights, int bands) {
+  if (!blend_) {
+    const Program::Stage stage{GL_COMPUTE_SHADER,
+                               "blend_light.comp.glsl",
+                               {std::string(shaderSource("blend_light.comp.glsl"))}};
+    Result<Program> made = Program::make({&stage, 1});
+    if (!made) return made.error();
+    blend_ = std::move(*made);
+  }
+  if (!blended_.name()) {
+    blendedBytes_ = std::min(kBlendedBytes, largestBlock_);
+    blended_ = makeBuffer(blendedBytes_);
+    if (Status s = checkGl("making room for a light field"); !s) return s;
+  }
+  field_ = lights;
+  bands_ = bands;
+  return Status::ok();
+}
+
+Status TransferOnGpu::setBlend(Relit& relit, std::span<const capture::BlendWeights> weights) {
+  std::vector<std::uint32_t> words;
+  words.reserve(relit.receivers.size() * Relit::kBlendBytes / sizeof(std::uint32_t));
+  for (const std::uint32_t receiver : relit.receivers) {
+    const capture::BlendWeights& w = weights[receiver];
+    words.push_back(w.sample[0] | std::uint32_t(w.sample[1]) << 16);
+    words.push_back(w.sample[2] | std::uint32_t(w.sample[3]) << 16);
+    for (const float weight : w.weight) words.push_back(std::bit_cast<std::uint32_t>(weight));
+  }
+  relit.blend = makeBuffer(words);
+  return checkGl("uploading how light blends");
+}
+
+Result<const Program*> TransferOnGpu::program(ProductShape::Kind kind, Encoding encoding) {
+  const std::pair key(kind, encoding);
+  auto found = programs_.find(key);
+  if (found == programs_.end()) {
+    const char* name = kind == ProductShape::Kind::Vectors ? "transfer_vectors.comp.glsl"
+                                                           : "transfer_matrices.comp.glsl";
+    const Program::Stage stage{GL_COMPUTE_SHADER,
+                               name,
+                               {numbersDefine(encoding), std::string(shaderSource("numbers.glsl")),
+                                std::string(shaderSource(name))}};
+    Result<Program> made = Program::make({&stage, 1});
+    if (!made) return made.error();
+    found = programs_.emplace(key, std::move(*made)).first;
+  }
+  return &found->second;
+}
+
+Status TransferOnGpu::dispatch(const Relit& relit, const Relit::Chunk& chunk) {
+  const Result<const Program*> found = program(relit.shape.kind, relit.shape.encoding);
+  if (!found) return found.error();
+  const Program& product = **found;
+  const ProductShape& shape = relit.shape;
+  const int used = std::min(shape.columns, sh::coefficientCount(bands_));
+  product.set("block", unsigned(chunk.block));
+  product.set("channels", unsigned(shape.channels));
+  product.set("rows", unsigned(shape.rows));
+  product.set("rowsUsed", unsigned(shape.rowsUsed));
+  product.set("stride", unsigned(shape.stride));
+  product.set("columns", unsigned(shape.columns));
+  product.set("used", unsigned(used));
+  product.set("reflectance", shape.reflectance.x(), shape.reflectance.y(), shape.reflectance.z());
+  product.set("lightStride", unsigned(field_ ? 3 * used : 0));
+  // A field is first blended for as many receivers as there is room for.
+  const std::size_t most =
+      field_ ? std::clamp<std::size_t>(blendedBytes_ / (3 * sizeof(float) * std::size_t(used)), 1,
+                                       kMostInvocations / std::size_t(used))
+             : chunk.count;
+  for (std::size_t begin = 0; begin < chunk.count; begin += most) {
+    const std::size_t count = std::min(most, chunk.count - begin);
+    if (field_) {
+      blend_->set("receivers", unsigned(count));
+      blend_->set("first", unsigned(chunk.first + begin));
+      blend_->set("coefficients", unsigned(sh::coefficientCount(bands_)));
+      blend_->set("used", unsigned(used));
+      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, field_);
+      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, relit.blend.name());
+      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, blended_.name());
+      glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+      blend_->use();
+      glDispatchCompute(GLuint((count * std::size_t(used) + 63) / 64), 1, 1);
+      glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+    product.set("begin", unsigned(begin));
+    product.set("receivers", unsigned(count));
+    product.set("first", unsigned(chunk.first));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk.numbers.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, field_ ? blended_.name() : light_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, relit.product.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, relit.factors.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, chunk.scales.name());
+    product.use();
+    glDispatchCompute(GLuint((count * std::size_t(shape.rowsUsed) + 63) / 64), 1, 1);
+  }
+  return Status::ok();
+}
+
+Status TransferOnGpu::relight(const Relit& relit) {
+  for (const Relit::Chunk& chunk : relit.chunks)
+    if (Status s = dispatch(relit, chunk); !s) return s;
+  return Status::ok();
+}
+
+Status TransferOnGpu::multiply(Relit& relit, const Numbers& transfer) {
+  const bool keep = residence_ == Residence::Keep;
+  const std::size_t each = relit.shape.each();
+  const Numbers decoded = asFloatsIfScalesSpan(transfer, each);
+  const Numbers& numbers = decoded.empty() ? transfer : decoded;
+  relit.shape.encoding = numbers.encoding;
+  if (const Result<const Program*> made = program(relit.shape.kind, numbers.encoding); !made)
+    return made.error();
+  relit.product =
+      makeBuffer(relit.receivers.size() * std::size_t(relit.shape.stride) * sizeof(float));
+  const float zero = 0.0f;  // what fills a stride up
+  glClearNamedBufferData(relit.product.name(), GL_R32F, GL_RED, GL_FLOAT, &zero);
+
+  const std::size_t room = keep ? largestBlock_ : std::min(kStreamedBytes, largestBlock_);
+  const std::size_t most =
+      std::clamp<std::size_t>(room / (each * bytesOf(numbers.encoding)), 1,
+                              kMostInvocations / std::size_t(relit.shape.rowsUsed));
+  const std::span<const std::uint32_t> receivers = relit.receivers;
+  for (std::size_t first = 0; first < receivers.size(); first += most) {
+    const auto named = receivers.subspan(first, std::min(most, receivers.size() - first));
+    Relit::Chunk chunk = upload(numbers, each, named);
+    if (Status s = checkGl("uploading transfer"); !s) return s;
+    chunk.first = first;
+    chunk.count = named.size();
+    if (keep)
+      relit.chunks.push_back(std::move(chunk));
+    else if (Status s = dispatch(relit, chunk); !s)
+      return s;
+  }
+  if (!keep) {
+    relit.receivers = {};
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    return checkGl("applying transfer to the light");
+  }
+  return Status::ok();
+}
+
+Result<Relit> TransferOnGpu::diffuse(const EncodedMesh& mesh,
+                                     std::vector<std::uint32_t> receivers) {
+  Relit relit;
+  relit.receivers = std::move(receivers);
+  relit.shape.kind = ProductShape::Kind::Vectors;
+  relit.shape.channels = mesh.channels;
+  relit.shape.columns = sh::coefficientCount(mesh.bands);
+  if (Status s = multiply(relit, mesh.vectors); !s) return s.error();
+  return relit;
+}
+
+Result<Relit> TransferOnGpu::lobe(const EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
+                                  std::optional<float> lobeExponent) {
+  Relit relit;
+  relit.receivers = std::move(receivers);
+  const int rows = sh::coefficientCount(mesh.outBands);
+  relit.shape.kind = ProductShape::Kind::Matrices;
+  relit.shape.channels = mesh.matrixChannels;
+  relit.shape.rows = relit.shape.rowsUsed = rows;
+  relit.shape.columns = sh::coefficientCount(mesh.inBands);
+  relit.shape.stride = 3 * rows;
+  relit.shape.reflectance = mesh.glossy;
+  setLobe(relit, mesh, lobeExponent);
+  if (Status s = multiply(relit, mesh.matrices); !s) return s.error();
+  return relit;
+}
+
+void TransferOnGpu::setLobe(Relit& relit, const EncodedMesh& mesh,
+                            std::optional<float> lobeExponent) {
+  relit.factors =
+      makeBuffer(shade::lobeFactors(mesh.outBands, lobeExponent.value_or(mesh.lobeExponent)));
+}
+
+Result<Relit> TransferOnGpu::incident(const EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
+                                      int bands, std::span<const float> factors,
+                                      std::optional<shade::MacroTransport> macro) {
+  using shade::MacroTransport;
+  const encode::EncodedBiScale& biScale = *mesh.biScale;
+  const int count = sh::coefficientCount(bands), stride = shade::rttStride(bands);
+  const MacroTransport chosen = macro.value_or(shade::bestOf(biScale));
+  Relit relit;
+  relit.receivers = std::move(receivers);
+  relit.shape.kind = ProductShape::Kind::Matrices;
+  relit.shape.stride = stride;
+  if (chosen == MacroTransport::Off) {
+    // Lit once: turning the light costs less than making the matrices that would.
+    assert(residence_ == Residence::Stream);
+    const std::vector<float> light =
+        shade::inRttLayout(shade::incidentLight(mesh, lightOnCpu_, bands, chosen), bands);
+    std::vector<float> product(relit.receivers.size() * std::size_t(stride));
+    for (std::size_t p = 0; p < relit.receivers.size(); ++p)
+      for (int i = 0; i < 3 * count; ++i)
+        product[p * stride + i] =
+            factors[i / 3] * light[relit.receivers[p] * std::size_t(stride) + i];
+    relit.product = makeBuffer(product);
+    relit.receivers = {};
+    return relit;
+  }
+  const bool shadowed = chosen == MacroTransport::Shadowed;
+  const int n = sh::coefficientCount(biScale.bands);
+  relit.shape.channels = shadowed ? 1 : biScale.channels;
+  relit.shape.rows = relit.shape.columns = n;
+  relit.shape.rowsUsed = std::min(n, count);
+  relit.factors = makeBuffer(factors.size_bytes(), factors.data());
+  if (Status s = multiply(relit, shadowed ? biScale.shadowed : biScale.interreflected); !s)
+    return s.error();
+  return relit;
+}
+
+}  // namespace lambent::render

@@ -1,0 +1,114 @@
+// Transfer · light by compute shaders (sloan2002precomputed §6, steps 2 and 3), a chunk of
+// receivers at a time. Transfer either stays on the GPU, so that a new light costs one dispatch a
+// chunk, or streams through it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lambent/capture/blending.h"
+#include "lambent/encode/encoded_field.h"
+#include "lambent/render/gl_objects.h"
+#include "lambent/sh/coefficients.h"
+#include "lambent/shade/bi_scale_options.h"
+
+namespace lambent::render {
+
+/// The line that tells shaders how numbers are stored (shaders/numbers.glsl).
+std::string numbersDefine(encode::Encoding encoding);
+
+/// Matrices or vectors as they are stored, and what becomes of their products with the light.
+struct ProductShape {
+  enum class Kind { Vectors, Matrices } kind = Kind::Vectors;
+  encode::Encoding encoding = encode::Encoding::Float32;
+  int channels = 1, rows = 1, columns = 0;
+  int rowsUsed = 1, stride = 3;  ///< numbers of a receiver in the output
+  Rgb reflectance = Rgb::Ones();
+  /// Numbers of one receiver's transfer.
+  std::size_t each() const { return std::size_t(channels) * rows * columns; }
+};
+
+/// Some receivers of a mesh, the products of their transfer with the light, and what it takes to
+/// make these anew (nothing, if transfer streams).
+struct Relit {
+  struct Chunk {
+    Buffer numbers, scales;            ///< as shaders/numbers.glsl reads them; scales of bytes only
+    std::size_t block = 0;             ///< numbers that share a scale
+    std::size_t first = 0, count = 0;  ///< receivers
+  };
+  std::vector<std::uint32_t> receivers;  ///< the mesh's numbers of them
+  Buffer product;                        ///< [receiver][ProductShape::stride] floats
+  ProductShape shape;
+  Buffer factors;  ///< [rowsUsed], what each row is multiplied with; matrices only
+  std::vector<Chunk> chunks;
+  Buffer blend;  ///< [receiver] samples and weights of a light field
+
+  /// Bytes that a receiver's part of `blend` takes.
+  static constexpr std::size_t kBlendBytes = 6 * sizeof(std::uint32_t);
+};
+
+class TransferOnGpu {
+ public:
+  /// Keep: relight() can be called with ever new lights. Stream: transfer is applied to the light
+  /// while it passes, and dropped.
+  enum class Residence { Keep, Stream };
+
+  /// No buffer that is made here exceeds `largestBlock` bytes.
+  TransferOnGpu(std::size_t largestBlock, Residence residence)
+      : largestBlock_(largestBlock), residence_(residence) {}
+
+  /// One light for all receivers.
+  void setLight(const sh::RgbCoefficients& light);
+  /// A light for each of some samples: [sample][coefficient][3] floats in a buffer of the caller's.
+  /// Every Relit must have been blended().
+  Status setField(GLuint lights, int bands);
+  /// Uploads how samples blend over the receivers of `relit`: one for each receiver of its mesh.
+  static Status setBlend(Relit& relit, std::span<const capture::BlendWeights> weights);
+
+  /// Exit radiance M · L of the named receivers of a mesh: [receiver][3].
+  Result<Relit> diffuse(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers);
+  /// α_i G_i (M L)_i k: [receiver][coefficient][3].
+  Result<Relit> lobe(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
+                     std::optional<float> lobeExponent);
+  /// Another lobe for what lobe() made.
+  static void setLobe(Relit& relit, const encode::EncodedMesh& mesh,
+                      std::optional<float> lobeExponent);
+  /// Light that arrives at the meso-structure of the named receivers of a bi-scale mesh, times a
+  /// factor for each of bands² coefficients: [receiver][rttStride(bands)], laid out as
+  /// shade::RttPyramid's numbers are. `macro` must be held; none: the best that is. Without macro
+  /// transport it is the light turned into the tangent frames; a mesh whose transfer is kept must
+  /// hold these rotations as its shadowed matrices then (shade::chosenTransfer).
+  Result<Relit> incident(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
+                         int bands, std::span<const float> factors,
+                         std::optional<shade::MacroTransport> macro);
+
+  /// Makes the products anew: the light, or the lobe, has changed.
+  Status relight(const Relit& relit);
+
+ private:
+  Status multiply(Relit& relit, const encode::Numbers& transfer);
+  Status dispatch(const Relit& relit, const Relit::Chunk& chunk);
+  Result<const Program*> program(ProductShape::Kind kind, encode::Encoding encoding);
+
+  std::size_t largestBlock_;
+  Residence residence_;
+  sh::RgbCoefficients lightOnCpu_;
+  Buffer light_;
+  GLuint field_ = 0;  ///< the caller's buffer, or 0: one light
+  int bands_ = 0;
+  Buffer blended_;  ///< the field at the receivers of one dispatch: [receiver][coefficient][3]
+  std::size_t blendedBytes_ = 0;
+  std::optional<Program> blend_;
+  std::map<std::pair<ProductShape::Kind, encode::Encoding>, Program> programs_;
+};
+
+/// Bytes that lobe() makes for each receiver.
+inline std::size_t lobeBytes(int outBands) {
+  return sizeof(float) * 3 * sh::coefficientCount(outBands);
+}
+
+}  // namespace lambent::render
