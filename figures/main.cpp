@@ -4,7 +4,7 @@
 //   NAME: figure3 figure9 figure10 figure11 figure12 table1 diffuse-accuracy glossy-accuracy
 //         biscale-truth biscale-resolution biscale-figure1 biscale-figure3 biscale-figure4
 //         biscale-figure5 biscale-figure6 biscale-vase biscale-filter biscale-encodings
-//         biscale-rtt-methods
+//         biscale-rtt-methods capture-projection capture-figure5
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 
 #include "figures/accuracy.h"
 #include "figures/biscale.h"
+#include "figures/capture.h"
 #include "figures/pictures.h"
 
 int main(int argc, char** argv) {
@@ -38,7 +39,9 @@ int main(int argc, char** argv) {
       {"biscale-vase", biscaleVase},
       {"biscale-filter", biscaleFilter},
       {"biscale-encodings", biscaleEncodings},
-      {"biscale-rtt-methods", biscaleRttMethods}};
+      {"biscale-rtt-methods", biscaleRttMethods},
+      {"capture-projection", captureProjection},
+      {"capture-figure5", captureFigure5}};
   Studio studio;
   std::vector<std::string> words(argv + 1, argv + argc), wanted;
   std::vector<std::string> places;

@@ -26,6 +26,7 @@ std::vector<sh::RgbCoefficients> captureByRays(const MovingScene& scene, double 
   const scene::Scene still = frozen(scene, time);
   const Result<trace::RayScene> rays = trace::RayScene::build(still);
   if (!rays) return result;  // no bodies
+  const std::vector<double> weights = cubeWeights(shape, bands);
   tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t p) {
     const trace::FlushDenormals flush;
     CubePicture picture{shape, std::vector<Rgb>(std::size_t(6 * shape.drawn() * shape.drawn()))};
@@ -40,7 +41,7 @@ std::vector<sh::RgbCoefficients> captureByRays(const MovingScene& scene, double 
             still.materials[std::size_t(still.meshes[hit->mesh].material)].emission;
       if (assetLight.bands > 0) picture.texels[at] -= sh::reconstruct(assetLight, away);
     });
-    const sh::RgbCoefficients difference = project(picture, bands);
+    const sh::RgbCoefficients difference = project(picture, weights);
     for (std::size_t i = 0; i < difference.values.size(); ++i)
       result[p].values[i] += difference.values[i];
   });

@@ -54,24 +54,30 @@ std::vector<double> cubeWeights(const CubeSize& shape, int bands, SolidAngles an
   return weights;
 }
 
-sh::RgbCoefficients project(const CubePicture& picture, int bands) {
+sh::RgbCoefficients project(const CubePicture& picture, std::span<const double> weights) {
   const CubeSize& shape = picture.shape;
-  assert(picture.texels.size() ==
-         std::size_t(shape.texels()) * std::size_t(shape.supersampling * shape.supersampling));
-  std::vector<Eigen::Array3d> means(std::size_t(shape.texels()), Eigen::Array3d::Zero());
-  const double share = 1.0 / (shape.supersampling * shape.supersampling);
-  forAllSubTexels(shape, [&](std::size_t texel, std::size_t drawn, const Vec3d&, double) {
-    means[texel] += share * picture.texels[drawn].cast<double>();
-  });
-  const std::vector<double> weights = cubeWeights(shape, bands);
-  const auto count = std::size_t(sh::coefficientCount(bands));
-  sh::RgbCoefficients light(bands);
-  for (std::size_t i = 0; i < count; ++i) {
-    Eigen::Array3d sum = Eigen::Array3d::Zero();
-    for (std::size_t t = 0; t < means.size(); ++t) sum += weights[t * count + i] * means[t];
-    for (int c = 0; c < 3; ++c) light.channel(c)[i] = float(sum[c]);
-  }
+  const int n = shape.size, f = shape.supersampling, drawn = shape.drawn();
+  assert(picture.texels.size() == std::size_t(6 * drawn * drawn));
+  const std::size_t count = weights.size() / std::size_t(shape.texels());
+  std::vector<Eigen::Array3d> sums(count, Eigen::Array3d::Zero());
+  const double* texelWeights = weights.data();
+  for (int row = 0; row < 6 * n; ++row)  // of all faces
+    for (int i = 0; i < n; ++i, texelWeights += count) {
+      Eigen::Array3d mean = Eigen::Array3d::Zero();
+      for (int k = 0; k < f * f; ++k)
+        mean +=
+            picture.texels[std::size_t((row * f + k / f) * drawn + i * f + k % f)].cast<double>();
+      mean /= f * f;
+      for (std::size_t c = 0; c < count; ++c) sums[c] += texelWeights[c] * mean;
+    }
+  sh::RgbCoefficients light(sh::bandsOf(count));
+  for (std::size_t i = 0; i < count; ++i)
+    for (int c = 0; c < 3; ++c) light.channel(c)[i] = float(sums[i][c]);
   return light;
+}
+
+sh::RgbCoefficients project(const CubePicture& picture, int bands) {
+  return project(picture, cubeWeights(picture.shape, bands));
 }
 
 }  // namespace lambent::capture

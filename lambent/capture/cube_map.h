@@ -70,5 +70,7 @@ void forAllSubTexels(const CubeSize& shape, const Visit& visit) {
 /// L_i = Σ_texels B_i · (mean of the texel's sub-texels): the light's coefficients. The oracle for
 /// the same sum on the GPU.
 sh::RgbCoefficients project(const CubePicture& picture, int bands);
+/// The same with cubeWeights of the picture's shape made beforehand.
+sh::RgbCoefficients project(const CubePicture& picture, std::span<const double> weights);
 
 }  // namespace lambent::capture

@@ -38,6 +38,7 @@ class KeptState {
     glGetIntegerv(GL_VIEWPORT, viewport_);
     glGetIntegerv(GL_FRONT_FACE, &frontFace_);
     glGetIntegerv(GL_DEPTH_FUNC, &depthFunction_);
+    glGetIntegerv(GL_CULL_FACE_MODE, &culled_);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
     glGetBooleanv(GL_COLOR_WRITEMASK, colorMask_);
     for (std::size_t i = 0; i < kSwitches.size(); ++i) on_[i] = glIsEnabled(kSwitches[i]);
@@ -53,6 +54,7 @@ class KeptState {
     glDepthMask(depthMask_);
     glColorMask(colorMask_[0], colorMask_[1], colorMask_[2], colorMask_[3]);
     glDepthFunc(GLenum(depthFunction_));
+    glCullFace(GLenum(culled_));
     glFrontFace(GLenum(frontFace_));
     glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_));
@@ -65,7 +67,7 @@ class KeptState {
   static constexpr std::array<GLenum, 9> kSwitches = {
       GL_BLEND,          GL_CULL_FACE,      GL_SCISSOR_TEST,   GL_STENCIL_TEST,  GL_DEPTH_TEST,
       GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1, GL_CLIP_DISTANCE2, GL_CLIP_DISTANCE3};
-  GLint draw_ = 0, read_ = 0, viewport_[4] = {}, frontFace_ = 0, depthFunction_ = 0;
+  GLint draw_ = 0, read_ = 0, viewport_[4] = {}, frontFace_ = 0, depthFunction_ = 0, culled_ = 0;
   GLboolean depthMask_ = GL_TRUE, colorMask_[4] = {};
   std::array<GLboolean, 9> on_{};
 };
@@ -306,12 +308,14 @@ void LightCapture::draw(unsigned framebuffer, int width, int height, const Mat4&
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
   for (int i = 0; i < 4; ++i) glDisable(GLenum(GL_CLIP_DISTANCE0 + i));
-  glDepthFunc(GL_LEQUAL);  // what is clamped to the far plane still covers the background
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_CULL_FACE);
   // A projection that mirrors nothing turns the depth over: its determinant is negative.
   glFrontFace(clipFromWorld.determinant() < 0 ? GL_CCW : GL_CW);
   impl_->view.use();
   impl_->bodies.bind();
-  // Farthest first: beyond the asset's planes depths are clamped, and cannot tell.
+  // Farthest first, and backs before fronts: far beyond the asset's planes depths are too coarse to
+  // tell, and then what is drawn last is seen.
   struct Placed {
     const GlBodies::Body* body;
     Mat4 clipFromBody;
@@ -329,7 +333,10 @@ void LightCapture::draw(unsigned framebuffer, int width, int height, const Mat4&
     const Rgb& radiance = each.body->radiance;
     impl_->view.setMatrix("clipFromBody", each.clipFromBody.data());
     impl_->view.set("radiance", radiance.x(), radiance.y(), radiance.z());
-    impl_->bodies.draw(*each.body, 1);
+    for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+      glCullFace(hidden);
+      impl_->bodies.draw(*each.body, 1);
+    }
   }
 }
 

@@ -53,7 +53,7 @@ class LightCapture {
   /// Draws the bodies as they stand at `time` into a framebuffer of that size: linear radiance, 1
   /// in alpha, tested against the depth that is there and written to it. `clipFromWorld` is the one
   /// that the rest of the picture was drawn with; bodies before its near plane or behind its far
-  /// one are drawn all the same, before or behind everything else.
+  /// one are drawn all the same, in their sequence.
   void draw(unsigned framebuffer, int width, int height, const Mat4& clipFromWorld,
             double time) const;
 
