@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "lambent/image/code_difference.h"
 #include "lambent/image/flip.h"
 #include "lambent/image/test_pictures.h"
+#include "lambent/radiometry/tone.h"
 
 namespace lambent::image {
 namespace {
@@ -157,6 +159,30 @@ TEST(Flip, SceneReferredPicturesAreToneMapped) {
   const double shown = compare(dim, bright, options)->flip;
   options.exposureEv = -6;
   EXPECT_GT(compare(dim, bright, options)->flip, shown);
+}
+
+TEST(CodeDifference, CountsStepsOfThePng) {
+  Image a(2, 2), b(2, 2);
+  const auto code = [](int step) { return radiometry::srgbDecode(float(step) / 255.0f); };
+  a.at(0, 0) = Rgb(code(10), code(20), code(255));
+  b.at(0, 0) = Rgb(code(13), code(20), 7.0f);  // clamped to 255
+  a.at(1, 0) = Rgb(std::nanf(""), -1.0f, 0.0f);
+  a.at(0, 1) = Rgb(code(1), 0.0f, 0.0f);
+  const CodeDifference apart = codeDifference(a, b);
+  EXPECT_EQ(apart.largest, 3);
+  EXPECT_EQ(apart.litPixels, 2u);
+  EXPECT_DOUBLE_EQ(apart.mean, 4.0 / 12.0);
+  EXPECT_DOUBLE_EQ(apart.meanLit, 4.0 / 6.0);
+  for (int step = 0; step < 256; ++step) {
+    const Image x = Image(1, 1), y = [&] {
+      Image one(1, 1);
+      one.at(0, 0) = Rgb::Constant(code(step));
+      return one;
+    }();
+    EXPECT_EQ(codeDifference(y, x).largest, step);
+    EXPECT_DOUBLE_EQ(codeDifference(x, y).mean, double(step));
+  }
+  EXPECT_EQ(codeDifference(Image(3, 1), Image(3, 1)).meanLit, 0.0);
 }
 
 }  // namespace
