@@ -16,6 +16,7 @@ for (const file of readdirSync(own).sort())
   if (file.endsWith(".glsl")) texts.set(file, readFileSync(new URL(file, own), "utf8"));
 
 let out = "// Made by scripts/embed-shaders.mjs.\n";
-for (const [file, text] of texts) out += `export const ${nameOf(file)}: string = ${JSON.stringify(text)};\n`;
+for (const [file, text] of texts)
+  out += `export const ${nameOf(file)}: string = ${JSON.stringify(text)};\n`;
 mkdirSync(new URL("../src/generated/", import.meta.url), { recursive: true });
 writeFileSync(new URL("../src/generated/shaders.ts", import.meta.url), out);

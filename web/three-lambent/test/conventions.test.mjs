@@ -59,7 +59,8 @@ it("discs", () => {
 });
 
 it("tone curve and sRGB", () => {
-  for (const [linear, shown] of table.filmic) near([filmic(linear)], [shown], 1e-7, `filmic ${linear}`);
+  for (const [linear, shown] of table.filmic)
+    near([filmic(linear)], [shown], 1e-7, `filmic ${linear}`);
   for (const [linear, code] of table.srgb) {
     near([srgbEncode(linear)], [code], 1e-6, `sRGB of ${linear}`);
     near([srgbDecode(code)], [linear], 1e-5, `linear of ${code}`);

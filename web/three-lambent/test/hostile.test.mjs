@@ -24,7 +24,12 @@ const rootOf = (file) => file.json.extensions[kName];
 const objectOf = (file, mesh) => file.json.meshes[mesh].primitives[0].extensions?.[kName];
 
 describe("samples", () => {
-  for (const name of ["unoccluded-square.glb", "every-layout.glb", "bi-scale.glb", "kept-shadowed.glb"])
+  for (const name of [
+    "unoccluded-square.glb",
+    "every-layout.glb",
+    "bi-scale.glb",
+    "kept-shadowed.glb",
+  ])
     it(name, async () => {
       const description = await read(sample(name));
       assert.ok(description.primitives.size > 0);
@@ -33,9 +38,23 @@ describe("samples", () => {
   it("every layout has what the text says", async () => {
     const { primitives } = await read(sample("every-layout.glb"));
     const all = [...primitives.values()];
-    assert.ok(all.some((p) => p.vectors?.channels === 3 && p.vectors.albedoOutside && p.vectors.numbers.encoding === "float16"));
+    assert.ok(
+      all.some(
+        (p) =>
+          p.vectors?.channels === 3 &&
+          p.vectors.albedoOutside &&
+          p.vectors.numbers.encoding === "float16",
+      ),
+    );
     assert.ok(all.some((p) => p.grid?.width === 3 && p.grid.height === 2 && p.receivers === 6));
-    assert.ok(all.some((p) => p.matrices?.outBands === 2 && p.matrices.inBands === 3 && p.matrices.numbers.encoding === "float32"));
+    assert.ok(
+      all.some(
+        (p) =>
+          p.matrices?.outBands === 2 &&
+          p.matrices.inBands === 3 &&
+          p.matrices.numbers.encoding === "float32",
+      ),
+    );
   });
 
   it("the square's vectors are those of the text", async () => {
@@ -75,40 +94,208 @@ describe("damage", () => {
   /** A change to a sample, and what is to be said about it. */
   const cases = [
     ["no frame", "unoccluded-square.glb", (f) => delete rootOf(f).frame, /frame: is missing/],
-    ["bands of 11", "unoccluded-square.glb", (f) => (rootOf(f).bands = 11), /bands: is 11, not an integer from 1 to 10/],
-    ["bands of 2.5", "unoccluded-square.glb", (f) => (objectOf(f, 0).vectors.bands = 2.5), /vectors\.bands: is 2\.5/],
-    ["other bands than numbers", "unoccluded-square.glb", (f) => (objectOf(f, 0).vectors.bands = 2), /36 numbers where 4 receivers × 1 channels × 4 coefficients need 16/],
-    ["two channels", "unoccluded-square.glb", (f) => (objectOf(f, 0).vectors.channels = 2), /channels: is 2, not 1 or 3/],
-    ["no such accessor", "unoccluded-square.glb", (f) => (objectOf(f, 0).vectors.accessor = 99), /accessor 99 does not exist/],
-    ["an accessor below 0", "unoccluded-square.glb", (f) => (objectOf(f, 0).vectors.accessor = -1), /accessor: is -1/],
-    ["another component type", "unoccluded-square.glb", (f) => (objectOf(f, 0).vectors.encoding = "float16"), /holds SCALAR of 5126 where SCALAR of 5123 is needed/],
-    ["an unknown encoding", "unoccluded-square.glb", (f) => (objectOf(f, 0).vectors.encoding = "snorm8"), /encoding: is "snorm8", not float16 or float32/],
-    ["a count beyond the buffer", "unoccluded-square.glb", (f) => (f.json.accessors[objectOf(f, 0).vectors.accessor].count = 1e12), /overlap|beyond the end/],
-    ["a view beyond the buffer", "unoccluded-square.glb", (f) => f.json.bufferViews.forEach((v) => (v.byteOffset = 1e9)), /reaches beyond the end of its buffer/],
-    ["a view without a length", "unoccluded-square.glb", (f) => f.json.bufferViews.forEach((v) => delete v.byteLength), /byteLength: is missing/],
-    ["sparse", "unoccluded-square.glb", (f) => (f.json.accessors[objectOf(f, 0).vectors.accessor].sparse = { count: 1 }), /sparse/],
-    ["an unknown layout", "unoccluded-square.glb", (f) => (objectOf(f, 0).layout = "faces"), /layout: is "faces", not vertices or texels/],
-    ["an object that is a list", "unoccluded-square.glb", (f) => (f.json.meshes[0].primitives[0].extensions[kName] = []), /is not an object/],
-    ["a node that moves", "unoccluded-square.glb", (f) => (f.json.nodes[0].translation = [0, 1, 0]), /nodes\[0\]\.translation: moves a mesh away/],
-    ["a node that is its own child", "unoccluded-square.glb", (f) => (f.json.nodes[0].children = [0]), null],
+    [
+      "bands of 11",
+      "unoccluded-square.glb",
+      (f) => (rootOf(f).bands = 11),
+      /bands: is 11, not an integer from 1 to 10/,
+    ],
+    [
+      "bands of 2.5",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).vectors.bands = 2.5),
+      /vectors\.bands: is 2\.5/,
+    ],
+    [
+      "other bands than numbers",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).vectors.bands = 2),
+      /36 numbers where 4 receivers × 1 channels × 4 coefficients need 16/,
+    ],
+    [
+      "two channels",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).vectors.channels = 2),
+      /channels: is 2, not 1 or 3/,
+    ],
+    [
+      "no such accessor",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).vectors.accessor = 99),
+      /accessor 99 does not exist/,
+    ],
+    [
+      "an accessor below 0",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).vectors.accessor = -1),
+      /accessor: is -1/,
+    ],
+    [
+      "another component type",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).vectors.encoding = "float16"),
+      /holds SCALAR of 5126 where SCALAR of 5123 is needed/,
+    ],
+    [
+      "an unknown encoding",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).vectors.encoding = "snorm8"),
+      /encoding: is "snorm8", not float16 or float32/,
+    ],
+    [
+      "a count beyond the buffer",
+      "unoccluded-square.glb",
+      (f) => (f.json.accessors[objectOf(f, 0).vectors.accessor].count = 1e12),
+      /overlap|beyond the end/,
+    ],
+    [
+      "a view beyond the buffer",
+      "unoccluded-square.glb",
+      (f) => f.json.bufferViews.forEach((v) => (v.byteOffset = 1e9)),
+      /reaches beyond the end of its buffer/,
+    ],
+    [
+      "a view without a length",
+      "unoccluded-square.glb",
+      (f) => f.json.bufferViews.forEach((v) => delete v.byteLength),
+      /byteLength: is missing/,
+    ],
+    [
+      "sparse",
+      "unoccluded-square.glb",
+      (f) => (f.json.accessors[objectOf(f, 0).vectors.accessor].sparse = { count: 1 }),
+      /sparse/,
+    ],
+    [
+      "an unknown layout",
+      "unoccluded-square.glb",
+      (f) => (objectOf(f, 0).layout = "faces"),
+      /layout: is "faces", not vertices or texels/,
+    ],
+    [
+      "an object that is a list",
+      "unoccluded-square.glb",
+      (f) => (f.json.meshes[0].primitives[0].extensions[kName] = []),
+      /is not an object/,
+    ],
+    [
+      "a node that moves",
+      "unoccluded-square.glb",
+      (f) => (f.json.nodes[0].translation = [0, 1, 0]),
+      /nodes\[0\]\.translation: moves a mesh away/,
+    ],
+    [
+      "a node that is its own child",
+      "unoccluded-square.glb",
+      (f) => (f.json.nodes[0].children = [0]),
+      null,
+    ],
     ["a skin", "unoccluded-square.glb", (f) => (f.json.nodes[0].skin = 0), /skin/],
-    ["morph targets", "unoccluded-square.glb", (f) => (f.json.meshes[0].primitives[0].targets = []), /morph targets/],
-    ["lines", "unoccluded-square.glb", (f) => (f.json.meshes[0].primitives[0].mode = 1), /triangles/],
-    ["a grid of other texels", "every-layout.glb", (f) => (texels(f).grid.width = 4), /18 numbers|vectors where 8 are needed|6 vectors where 8/],
-    ["a grid of a million texels", "every-layout.glb", (f) => Object.assign(texels(f).grid, { width: 32768, height: 32768 }), /vectors where 1073741824 are needed/],
-    ["a grid without UVs", "every-layout.glb", (f) => f.json.meshes.forEach((m) => delete m.primitives[0].attributes.TEXCOORD_0), /TEXCOORD_0 is missing/],
-    ["a lobe that is no number", "every-layout.glb", (f) => (glossy(f).matrices.lobeExponent = "16"), /lobeExponent: is "16"/],
-    ["glossy below 0", "every-layout.glb", (f) => (glossy(f).matrices.glossy = [1, -1, 1]), /glossy: is below 0/],
-    ["glossy of two numbers", "every-layout.glb", (f) => (glossy(f).matrices.glossy = [1, 1]), /glossy: is not an array of 3/],
-    ["no such rtt", "bi-scale.glb", (f) => (objectOf(f, 0).biScale.rtt = 7), /rtt: is 7, but the asset has 1/],
-    ["an rtt of no size", "bi-scale.glb", (f) => (rootOf(f).rtts[0].size = [0, 1]), /size: is not two numbers above 0/],
-    ["an rtt of other views", "bi-scale.glb", (f) => (rootOf(f).rtts[0].views = 3), /values\.accessor: .* numbers where/],
-    ["rtts that are no list", "bi-scale.glb", (f) => (rootOf(f).rtts = {}), /rtts: is not an array/],
+    [
+      "morph targets",
+      "unoccluded-square.glb",
+      (f) => (f.json.meshes[0].primitives[0].targets = []),
+      /morph targets/,
+    ],
+    [
+      "lines",
+      "unoccluded-square.glb",
+      (f) => (f.json.meshes[0].primitives[0].mode = 1),
+      /triangles/,
+    ],
+    [
+      "a grid of other texels",
+      "every-layout.glb",
+      (f) => (texels(f).grid.width = 4),
+      /18 numbers|vectors where 8 are needed|6 vectors where 8/,
+    ],
+    [
+      "a grid of a million texels",
+      "every-layout.glb",
+      (f) => Object.assign(texels(f).grid, { width: 32768, height: 32768 }),
+      /vectors where 1073741824 are needed/,
+    ],
+    [
+      "a grid without UVs",
+      "every-layout.glb",
+      (f) => f.json.meshes.forEach((m) => delete m.primitives[0].attributes.TEXCOORD_0),
+      /TEXCOORD_0 is missing/,
+    ],
+    [
+      "a lobe that is no number",
+      "every-layout.glb",
+      (f) => (glossy(f).matrices.lobeExponent = "16"),
+      /lobeExponent: is "16"/,
+    ],
+    [
+      "glossy below 0",
+      "every-layout.glb",
+      (f) => (glossy(f).matrices.glossy = [1, -1, 1]),
+      /glossy: is below 0/,
+    ],
+    [
+      "glossy of two numbers",
+      "every-layout.glb",
+      (f) => (glossy(f).matrices.glossy = [1, 1]),
+      /glossy: is not an array of 3/,
+    ],
+    [
+      "no such rtt",
+      "bi-scale.glb",
+      (f) => (objectOf(f, 0).biScale.rtt = 7),
+      /rtt: is 7, but the asset has 1/,
+    ],
+    [
+      "an rtt of no size",
+      "bi-scale.glb",
+      (f) => (rootOf(f).rtts[0].size = [0, 1]),
+      /size: is not two numbers above 0/,
+    ],
+    [
+      "an rtt of other views",
+      "bi-scale.glb",
+      (f) => (rootOf(f).rtts[0].views = 3),
+      /values\.accessor: .* numbers where/,
+    ],
+    [
+      "rtts that are no list",
+      "bi-scale.glb",
+      (f) => (rootOf(f).rtts = {}),
+      /rtts: is not an array/,
+    ],
     ["a scale of 0", "bi-scale.glb", (f) => (objectOf(f, 0).biScale.scale = 0), /scale: is 0/],
-    ["no place of the patch", "bi-scale.glb", (f) => f.json.meshes.forEach((m) => { const b = m.primitives[0].extensions[kName].biScale; delete b.idMap; delete b.tiles; }), /neither an idMap nor tiles/],
-    ["no scales", "bi-scale.glb", (f) => delete rootOf(f).rtts[0].values.scales, /scales: is missing/],
-    ["shadowed beside nothing", "kept-shadowed.glb", (f) => { const o = objectOf(f, 0); o.shadowed.matrices = o.shadowed.vectors; }, /shadowed\.matrices: has none beside it/],
-    ["half of the shadowed", "kept-shadowed.glb", (f) => delete objectOf(f, 0).shadowed.vectors, /shadowed\.vectors: is missing/],
+    [
+      "no place of the patch",
+      "bi-scale.glb",
+      (f) =>
+        f.json.meshes.forEach((m) => {
+          const b = m.primitives[0].extensions[kName].biScale;
+          delete b.idMap;
+          delete b.tiles;
+        }),
+      /neither an idMap nor tiles/,
+    ],
+    [
+      "no scales",
+      "bi-scale.glb",
+      (f) => delete rootOf(f).rtts[0].values.scales,
+      /scales: is missing/,
+    ],
+    [
+      "shadowed beside nothing",
+      "kept-shadowed.glb",
+      (f) => {
+        const o = objectOf(f, 0);
+        o.shadowed.matrices = o.shadowed.vectors;
+      },
+      /shadowed\.matrices: has none beside it/,
+    ],
+    [
+      "half of the shadowed",
+      "kept-shadowed.glb",
+      (f) => delete objectOf(f, 0).shadowed.vectors,
+      /shadowed\.vectors: is missing/,
+    ],
   ];
   const carrying = (file, test) =>
     file.json.meshes.map((_, i) => objectOf(file, i)).find((object) => object && test(object));
@@ -143,7 +330,10 @@ describe("damage", () => {
     for (const name of ["every-layout.glb", "bi-scale.glb", "kept-shadowed.glb"]) {
       const { json, bin } = sample(name);
       for (let length = 0; length < bin.length - 4; length += 61)
-        await assert.rejects(read({ json, bin: bin.subarray(0, length) }), /LambentFormatError|cut off/);
+        await assert.rejects(
+          read({ json, bin: bin.subarray(0, length) }),
+          /LambentFormatError|cut off/,
+        );
     }
   });
 
@@ -169,7 +359,11 @@ describe("damage", () => {
             await read({ json, bin });
           } catch (error) {
             if (error.code === "ERR_ASSERTION") continue; // a buffer that the document lacks
-            assert.equal(error.name, "LambentFormatError", `${path.join(".")} = ${JSON.stringify(value)}: ${error.stack}`);
+            assert.equal(
+              error.name,
+              "LambentFormatError",
+              `${path.join(".")} = ${JSON.stringify(value)}: ${error.stack}`,
+            );
           }
         }
     }

@@ -33,7 +33,10 @@ function mapOf(width, height, radiance) {
       const azimuth = 2 * Math.PI * ((x + 0.5) / width - 0.5);
       const elevation = Math.PI * (0.5 - (y + 0.5) / height);
       const [c, s] = [Math.cos(elevation), Math.sin(elevation)];
-      data.set([...radiance(c * Math.cos(azimuth), s, c * Math.sin(azimuth)), 1], 4 * (y * width + x));
+      data.set(
+        [...radiance(c * Math.cos(azimuth), s, c * Math.sin(azimuth)), 1],
+        4 * (y * width + x),
+      );
     }
   return data;
 }
@@ -48,15 +51,32 @@ describe("images", () => {
     const image = { data, width, height: 256, channels: 4, encoding: "float32", topRowFirst: true };
     const light = LambentLight.fromEquirectangular(image, 5);
     const expected = new Float64Array(75);
-    for (const [i, c, value] of [[1, 0, 1], [5, 0, 2], [6, 1, 1], [11, 1, -1], [0, 2, 0.5], [8, 2, 1], [15, 2, 1]])
+    for (const [i, c, value] of [
+      [1, 0, 1],
+      [5, 0, 2],
+      [6, 1, 1],
+      [11, 1, -1],
+      [0, 2, 0.5],
+      [8, 2, 1],
+      [15, 2, 1],
+    ])
       expected[3 * i + c] = value;
     light.coefficients.forEach((value, i) => close(value, expected[i], 2e-4, `coefficient ${i}`));
   });
 
   it("of one radiance is uniform light, to the last digits", () => {
-    const image = { data: new Float32Array(3 * 8 * 4).fill(2), width: 8, height: 4, channels: 3, encoding: "float32", topRowFirst: true };
+    const image = {
+      data: new Float32Array(3 * 8 * 4).fill(2),
+      width: 8,
+      height: 4,
+      channels: 3,
+      encoding: "float32",
+      topRowFirst: true,
+    };
     const uniform = LambentLight.uniform([2, 2, 2], 10).coefficients;
-    LambentLight.fromEquirectangular(image, 10).coefficients.forEach((v, i) => close(v, uniform[i], 1e-12));
+    LambentLight.fromEquirectangular(image, 10).coefficients.forEach((v, i) =>
+      close(v, uniform[i], 1e-12),
+    );
   });
 
   it("textures: halves and floats, upside down or not", () => {
@@ -79,7 +99,14 @@ describe("images", () => {
 
   it("says what cannot be read", () => {
     assert.throws(() => LambentLight.fromEquirectangular(new Texture()), /not in memory/);
-    const short = { data: [1, 2, 3], width: 2, height: 2, channels: 3, encoding: "float32", topRowFirst: true };
+    const short = {
+      data: [1, 2, 3],
+      width: 2,
+      height: 2,
+      channels: 3,
+      encoding: "float32",
+      topRowFirst: true,
+    };
     assert.throws(() => LambentLight.fromEquirectangular(short), /needs 12 numbers, and has 3/);
   });
 });
@@ -101,32 +128,50 @@ describe("three's light probe", () => {
 describe("sums and windows", () => {
   it("adds, scales, copies, cuts bands", () => {
     const disc = { direction: new Vector3(0, 1, 0), diameter: 1, radiance: [1, 1, 1] };
-    const light = new LambentLight(4).addDisc(disc).add(LambentLight.uniform([1, 2, 3], 2)).scale(2);
+    const light = new LambentLight(4)
+      .addDisc(disc)
+      .add(LambentLight.uniform([1, 2, 3], 2))
+      .scale(2);
     const same = LambentLight.uniform([2, 4, 6], 4).add(new LambentLight(4).addDisc(disc), 2);
     light.coefficients.forEach((v, i) => close(v, same.coefficients[i], 1e-12));
     const before = light.version;
     light.copy(new LambentLight(9).addDisc(disc));
     assert.ok(light.version > before);
-    new LambentLight(4).addDisc(disc).coefficients.forEach((v, i) => close(light.coefficients[i], v, 1e-12));
+    new LambentLight(4)
+      .addDisc(disc)
+      .coefficients.forEach((v, i) => close(light.coefficients[i], v, 1e-12));
   });
 
   it("a disc over the whole sphere is uniform light; one without extent is none", () => {
     const direction = new Vector3(1, 2, 3);
-    const whole = new LambentLight(6).addDisc({ direction, diameter: 2 * Math.PI, radiance: [1, 1, 1] });
-    LambentLight.uniform([1, 1, 1], 6).coefficients.forEach((v, i) => close(whole.coefficients[i], v, 1e-12));
+    const whole = new LambentLight(6).addDisc({
+      direction,
+      diameter: 2 * Math.PI,
+      radiance: [1, 1, 1],
+    });
+    LambentLight.uniform([1, 1, 1], 6).coefficients.forEach((v, i) =>
+      close(whole.coefficients[i], v, 1e-12),
+    );
     const none = new LambentLight(6).addDisc({ direction, diameter: 0, radiance: [1, 1, 1] });
     assert.ok(none.coefficients.every((v) => v === 0));
   });
 
   it("the minimal window leaves nothing negative, and takes no more than it must", () => {
-    const light = new LambentLight(6).addDisc({ direction: new Vector3(1, 1, 0), diameter: 0.4, radiance: [1, 2, 0] });
+    const light = new LambentLight(6).addDisc({
+      direction: new Vector3(1, 1, 0),
+      diameter: 0.4,
+      radiance: [1, 2, 0],
+    });
     assert.ok(Math.min(...directions.map((d) => light.radiance(d)[0])) < 0);
     const windowed = light.clone().window("minimal");
     let least = Infinity;
     for (let i = 0; i < 20000; ++i) {
       const z = 1 - (2 * i + 1) / 20000;
       const r = Math.sqrt(1 - z * z);
-      least = Math.min(least, windowed.radiance(new Vector3(r * Math.cos(2.4 * i), r * Math.sin(2.4 * i), z))[0]);
+      least = Math.min(
+        least,
+        windowed.radiance(new Vector3(r * Math.cos(2.4 * i), r * Math.sin(2.4 * i), z))[0],
+      );
     }
     const mean = windowed.coefficients[0] / Math.sqrt(4 * Math.PI);
     assert.ok(least > -1e-6 * mean, `${least} of ${mean}`);
@@ -160,7 +205,15 @@ describe("numbers", () => {
       if ((h & 0x7c00) === 0x7c00) continue;
       assert.equal(halfFromFloat(floatFromHalf(h)), h);
     }
-    for (const [value, half] of [[1 + 2 ** -11, 0x3c00], [1 + 3 * 2 ** -11, 0x3c02], [2 ** -25, 0], [1.5 * 2 ** -24, 2], [70000, 0x7bff], [-Infinity, 0xfbff], [NaN, 0]])
+    for (const [value, half] of [
+      [1 + 2 ** -11, 0x3c00],
+      [1 + 3 * 2 ** -11, 0x3c02],
+      [2 ** -25, 0],
+      [1.5 * 2 ** -24, 2],
+      [70000, 0x7bff],
+      [-Infinity, 0xfbff],
+      [NaN, 0],
+    ])
       assert.equal(halfFromFloat(value), half, String(value));
   });
 

@@ -11,12 +11,17 @@ import { bundle, openPage } from "./support/browser.mjs";
 const root = fileURLToPath(new URL("..", import.meta.url));
 const readme = readFileSync(join(root, "README.md"), "utf8");
 const manifest = JSON.parse(readFileSync(join(root, "package.json"), "utf8"));
-const sample = readFileSync(new URL("../../../spec/samples/unoccluded-square.glb", import.meta.url));
+const sample = readFileSync(
+  new URL("../../../spec/samples/unoccluded-square.glb", import.meta.url),
+);
 
 describe("the package", () => {
   it("holds what it should, and nothing else", () => {
     const [{ files }] = JSON.parse(
-      execFileSync("npm", ["pack", "--dry-run", "--json", "--ignore-scripts"], { cwd: root, encoding: "utf8" }),
+      execFileSync("npm", ["pack", "--dry-run", "--json", "--ignore-scripts"], {
+        cwd: root,
+        encoding: "utf8",
+      }),
     );
     const paths = files.map(({ path }) => path);
     for (const path of ["README.md", "LICENSE", "package.json", "dist/index.js", "dist/index.d.ts"])
@@ -31,8 +36,16 @@ describe("the package", () => {
     assert.deepEqual(Object.keys(manifest.peerDependencies), ["three"]);
     assert.equal(manifest.dependencies, undefined);
     const found = new Set();
-    for (const file of execFileSync("find", ["dist", "-name", "*.js"], { cwd: root, encoding: "utf8" }).trim().split("\n"))
-      for (const [, from] of readFileSync(join(root, file), "utf8").matchAll(/from "([^".][^"]*)"/g)) found.add(from);
+    for (const file of execFileSync("find", ["dist", "-name", "*.js"], {
+      cwd: root,
+      encoding: "utf8",
+    })
+      .trim()
+      .split("\n"))
+      for (const [, from] of readFileSync(join(root, file), "utf8").matchAll(
+        /from "([^".][^"]*)"/g,
+      ))
+        found.add(from);
     assert.deepEqual([...found], ["three"]);
   });
 
@@ -57,14 +70,16 @@ describe("the package", () => {
           ...{ noEmit: true, lib: ["ES2022", "DOM"], types: [], skipLibCheck: true },
           paths: {
             "three-lambent": [join(root, "dist/index.d.ts")],
-            "three": [join(root, "node_modules/@types/three")],
+            three: [join(root, "node_modules/@types/three")],
             "three/addons/*": [join(root, "node_modules/@types/three/examples/jsm/*")],
           },
         },
         files: ["example.ts"],
       };
       writeFileSync(join(folder, "tsconfig.json"), JSON.stringify(options));
-      execFileSync("node", [join(root, "node_modules/typescript/bin/tsc"), "-p", folder], { encoding: "utf8" });
+      execFileSync("node", [join(root, "node_modules/typescript/bin/tsc"), "-p", folder], {
+        encoding: "utf8",
+      });
     } catch (error) {
       assert.fail(`${error.stdout ?? error}`);
     } finally {
@@ -101,7 +116,10 @@ globalThis.shown = () => {
   });
 
   it("keeps it to 15 lines", () => {
-    const lines = /```js\n(import[\s\S]*?)```/.exec(readme)[1].split("\n").filter((line) => line.trim());
+    const lines = /```js\n(import[\s\S]*?)```/
+      .exec(readme)[1]
+      .split("\n")
+      .filter((line) => line.trim());
     assert.ok(lines.length <= 15, `${lines.length}`);
   });
 });

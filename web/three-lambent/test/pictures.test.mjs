@@ -22,7 +22,12 @@ const kSize = 256;
 const kDegree = Math.PI / 180;
 
 /** About the vertical, counter-clockwise seen from above, as the tool's --rotate-y. */
-const aboutY = (degrees) => [0, Math.sin((degrees * kDegree) / 2), 0, Math.cos((degrees * kDegree) / 2)];
+const aboutY = (degrees) => [
+  0,
+  Math.sin((degrees * kDegree) / 2),
+  0,
+  Math.cos((degrees * kDegree) / 2),
+];
 
 describe("pictures against the CPU's", { skip: noTool }, () => {
   let folder;
@@ -31,8 +36,15 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
 
   before(async () => {
     folder = keep || mkdtempSync(join(tmpdir(), "three-lambent-"));
-    const scenes = { matt: mattScene, glossy: glossyScene, mirror: mirrorScene, texel: texelScene, ball: ballScene };
-    for (const [name, bytes] of Object.entries(scenes)) writeFileSync(join(folder, `${name}-scene.glb`), bytes);
+    const scenes = {
+      matt: mattScene,
+      glossy: glossyScene,
+      mirror: mirrorScene,
+      texel: texelScene,
+      ball: ballScene,
+    };
+    for (const [name, bytes] of Object.entries(scenes))
+      writeFileSync(join(folder, `${name}-scene.glb`), bytes);
     writeFileSync(join(folder, "environment.exr"), environmentExr);
     const quick = ["--directions", 512, "--bounces", 1, "--quiet"];
     const bake = (scene, output, ...more) =>
@@ -40,18 +52,95 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     bake("matt", "matt");
     bake("matt", "matt-shadowed", "--transfer", "shadowed", "--bands", 4);
     bake("glossy", "glossy");
-    bake("glossy", "glossy-float", "--encoding", "float32", "--bands", 4, "--glossy-bands", 6, "--transfer", "shadowed");
+    bake(
+      "glossy",
+      "glossy-float",
+      "--encoding",
+      "float32",
+      "--bands",
+      4,
+      "--glossy-bands",
+      6,
+      "--transfer",
+      "shadowed",
+    );
     bake("matt", "matt-unshadowed", "--transfer", "unshadowed");
     bake("glossy", "glossy-unshadowed", "--transfer", "unshadowed");
     bake("mirror", "mirror");
     bake("texel", "texel", "--texels", "sheet=48x40");
-    const patch = ["--positions", "24x20", "--views", 4, "--directions", 128, "--bounces", 1, "--quiet"];
+    const patch = [
+      "--positions",
+      "24x20",
+      "--views",
+      4,
+      "--directions",
+      128,
+      "--bounces",
+      1,
+      "--quiet",
+    ];
     lambent(folder, "rtt", "stucco", "-o", "patch.rtt", ...patch);
-    lambent(folder, "rtt", "stucco", "-o", "patch16.rtt", ...patch, "--encoding", "float16", "--bands", 3);
-    const spread = ["--directions", 256, "--map-size", 256, "--vertices", 8000, "--mesh", "ball", "--quiet"];
-    lambent(folder, "synthesize", "ball-scene.glb", "--rtt", "patch.rtt", "-o", "patch.glb", "--patch-width", 0.5, ...spread);
-    lambent(folder, "synthesize", "ball-scene.glb", "--rtt", "patch.rtt", "-o", "patch-shadowed.glb", "--transfer", "shadowed", ...spread);
-    lambent(folder, "synthesize", "ball-scene.glb", "--rtt", "patch16.rtt", "-o", "tiled.glb", "--map", "uv", "--tiles", "9x6", ...spread);
+    lambent(
+      folder,
+      "rtt",
+      "stucco",
+      "-o",
+      "patch16.rtt",
+      ...patch,
+      "--encoding",
+      "float16",
+      "--bands",
+      3,
+    );
+    const spread = [
+      "--directions",
+      256,
+      "--map-size",
+      256,
+      "--vertices",
+      8000,
+      "--mesh",
+      "ball",
+      "--quiet",
+    ];
+    lambent(
+      folder,
+      "synthesize",
+      "ball-scene.glb",
+      "--rtt",
+      "patch.rtt",
+      "-o",
+      "patch.glb",
+      "--patch-width",
+      0.5,
+      ...spread,
+    );
+    lambent(
+      folder,
+      "synthesize",
+      "ball-scene.glb",
+      "--rtt",
+      "patch.rtt",
+      "-o",
+      "patch-shadowed.glb",
+      "--transfer",
+      "shadowed",
+      ...spread,
+    );
+    lambent(
+      folder,
+      "synthesize",
+      "ball-scene.glb",
+      "--rtt",
+      "patch16.rtt",
+      "-o",
+      "tiled.glb",
+      "--map",
+      "uv",
+      "--tiles",
+      "9x6",
+      ...spread,
+    );
     const script = await bundle(readFileSync(new URL("page/pictures.js", import.meta.url), "utf8"));
     browser = await openPage({ script, folder });
     await browser.page.waitForFunction("window.ready");
@@ -65,8 +154,25 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
   async function agree(name, asset, options = [], state = {}, source = "environment.exr") {
     const truth = `truth-${name}.png`;
     lambent(
-      folder, "render", asset, "--light", source, "-o", truth, "--backend", "cpu", "--samples", 1,
-      "--size", kSize, "--camera", "auto", "--quiet", ...(state.background === false ? [] : ["--background"]), ...(options.includes("--exposure") ? [] : ["--exposure", 0]), ...options,
+      folder,
+      "render",
+      asset,
+      "--light",
+      source,
+      "-o",
+      truth,
+      "--backend",
+      "cpu",
+      "--samples",
+      1,
+      "--size",
+      kSize,
+      "--camera",
+      "auto",
+      "--quiet",
+      ...(state.background === false ? [] : ["--background"]),
+      ...(options.includes("--exposure") ? [] : ["--exposure", 0]),
+      ...options,
     );
     const found = await browser.page.evaluate((s) => window.compare(s), {
       asset,
@@ -76,34 +182,61 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       ...(source.startsWith("environment.exr") && { environment: "environment.exr" }),
       ...state,
     });
-    if (keep) writeFileSync(join(folder, `web-${name}.png`), Buffer.from(found.picture.split(",")[1], "base64"));
-    console.log(`${name}: ${found.own.toFixed(3)}/255 of the asset's pixels, ${found.all.toFixed(3)}/255 of all`);
+    if (keep)
+      writeFileSync(
+        join(folder, `web-${name}.png`),
+        Buffer.from(found.picture.split(",")[1], "base64"),
+      );
+    console.log(
+      `${name}: ${found.own.toFixed(3)}/255 of the asset's pixels, ${found.all.toFixed(3)}/255 of all`,
+    );
     const problems = browser.problems();
     assert.deepEqual(problems, [], `the page complained: ${problems.join("\n")}`);
     assert.equal(found.error, 0, `WebGL error ${found.error}`);
     // A picture that shows nothing agrees with anything.
-    assert.ok(found.covered > 0.1 && found.brightness > 10, `covered ${found.covered}, brightness ${found.brightness}`);
+    assert.ok(
+      found.covered > 0.1 && found.brightness > 10,
+      `covered ${found.covered}, brightness ${found.brightness}`,
+    );
     assert.ok(found.own <= 1 && found.all <= 1, `${name}: ${found.own}/255, ${found.all}/255`);
     return found;
   }
 
   it("diffuse at vertices, with textures and vertex colours", () => agree("matt", "matt.glb"));
-  it("… baked shadowed, of another number of bands", () => agree("matt-shadowed", "matt-shadowed.glb"));
+  it("… baked shadowed, of another number of bands", () =>
+    agree("matt-shadowed", "matt-shadowed.glb"));
   it("glossy at vertices", () => agree("glossy", "glossy.glb"));
-  it("… with light fetched per pixel", () => agree("glossy-fetch", "glossy.glb", [], { incident: "fetch" }));
+  it("… with light fetched per pixel", () =>
+    agree("glossy-fetch", "glossy.glb", [], { incident: "fetch" }));
   it("… float32, of more rows than columns", () => agree("glossy-float", "glossy-float.glb"));
-  it("… with another lobe", () => agree("glossy-lobe", "glossy.glb", ["--lobe", 40], { asset_: { lobeExponent: 40 } }));
+  it("… with another lobe", () =>
+    agree("glossy-lobe", "glossy.glb", ["--lobe", 40], { asset_: { lobeExponent: 40 } }));
   it("mirrors", () => agree("mirror", "mirror.glb"));
   it("texels, matt and glossy", () => agree("texel", "texel.glb"));
   it("meso-structure with an id map", () => agree("patch", "patch.glb"));
-  it("… with light fetched per pixel", () => agree("patch-fetch", "patch.glb", [], { incident: "fetch" }));
-  it("… unfiltered", () => agree("patch-nearest", "patch.glb", ["--filter", "off"], { asset_: { filter: false } }));
-  it("… without macro-scale transfer", () => agree("patch-macro-off", "patch.glb", ["--macro", "off"], { asset_: { macro: false } }));
-  it("… shadowed", () => agree("patch-shadowed", "patch-shadowed.glb", ["--macro", "shadowed"], { asset_: { transfer: "shadowed" } }));
-  it("… as pasted on", () => agree("patch-flat", "patch.glb", ["--view-dependence", "off"], { asset_: { viewDependent: false } }));
+  it("… with light fetched per pixel", () =>
+    agree("patch-fetch", "patch.glb", [], { incident: "fetch" }));
+  it("… unfiltered", () =>
+    agree("patch-nearest", "patch.glb", ["--filter", "off"], { asset_: { filter: false } }));
+  it("… without macro-scale transfer", () =>
+    agree("patch-macro-off", "patch.glb", ["--macro", "off"], { asset_: { macro: false } }));
+  it("… shadowed", () =>
+    agree("patch-shadowed", "patch-shadowed.glb", ["--macro", "shadowed"], {
+      asset_: { transfer: "shadowed" },
+    }));
+  it("… as pasted on", () =>
+    agree("patch-flat", "patch.glb", ["--view-dependence", "off"], {
+      asset_: { viewDependent: false },
+    }));
   it("meso-structure over UVs, float16", () => agree("tiled", "tiled.glb"));
 
-  for (const [name, asset] of [["matt", "matt.glb"], ["glossy", "glossy.glb"], ["mirror", "mirror.glb"], ["texel", "texel.glb"], ["patch", "patch.glb"]]) {
+  for (const [name, asset] of [
+    ["matt", "matt.glb"],
+    ["glossy", "glossy.glb"],
+    ["mirror", "mirror.glb"],
+    ["texel", "texel.glb"],
+    ["patch", "patch.glb"],
+  ]) {
     it(`${name}, the environment turned`, () =>
       agree(`${name}-turned`, asset, ["--rotate-y", 70], { environmentRotation: aboutY(70) }));
     it(`${name}, the object turned and moved`, () =>
@@ -128,18 +261,29 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       light.addDisc({ direction: new Vector3(0.3, 1, 0.6), diameter: 0.9, radiance: [8, 7, 5] });
       light.addDisc({ direction: new Vector3(-1, 0.2, 0.4), diameter: 1.2, radiance: [0.5, 1, 3] });
       const written = (name, { coefficients, bands }) => {
-        const rows = Array.from({ length: bands * bands }, (_, i) => [...coefficients.subarray(3 * i, 3 * i + 3)]);
-        writeFileSync(join(folder, name), JSON.stringify({ lambent: "light", bands, coefficients: rows }));
+        const rows = Array.from({ length: bands * bands }, (_, i) => [
+          ...coefficients.subarray(3 * i, 3 * i + 3),
+        ]);
+        writeFileSync(
+          join(folder, name),
+          JSON.stringify({ lambent: "light", bands, coefficients: rows }),
+        );
         return name;
       };
       const world = written("world-light.json", light);
       const turned = written("turned-light.json", light.clone().rotate(q.clone().invert()));
-      await agree(`${kind}-slanted`, `${kind}.glb`, [], {
-        light: world,
-        objectRotation: q.toArray(),
-        objectTranslation: [-2, 5, 1],
-        background: false,
-      }, turned);
+      await agree(
+        `${kind}-slanted`,
+        `${kind}.glb`,
+        [],
+        {
+          light: world,
+          objectRotation: q.toArray(),
+          objectTranslation: [-2, 5, 1],
+          background: false,
+        },
+        turned,
+      );
     });
 
   it("linear tone curve, exposure, a disc in mirrors and in the light", () =>
@@ -150,11 +294,17 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       {
         tone: "linear",
         exposure: -1,
-        discs: [{
-          direction: { x: Math.cos(30 * kDegree) * Math.cos(50 * kDegree), y: Math.sin(50 * kDegree), z: Math.sin(30 * kDegree) * Math.cos(50 * kDegree) },
-          diameter: 40 * kDegree,
-          radiance: [3, 2, 1],
-        }],
+        discs: [
+          {
+            direction: {
+              x: Math.cos(30 * kDegree) * Math.cos(50 * kDegree),
+              y: Math.sin(50 * kDegree),
+              z: Math.sin(30 * kDegree) * Math.cos(50 * kDegree),
+            },
+            diameter: 40 * kDegree,
+            radiance: [3, 2, 1],
+          },
+        ],
       },
       "environment.exr+disc:30,50,40,3/2/1",
     ));
@@ -165,7 +315,9 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       for (const incident of ["auto", "varyings", "fetch"]) {
         const { userData, scene } = await window.load("glossy.glb", incident);
         userData.lambent.update(window.renderer);
-        found[incident] = scene.children.map((mesh) => mesh.geometry.hasAttribute("lambentCorners"));
+        found[incident] = scene.children.map((mesh) =>
+          mesh.geometry.hasAttribute("lambentCorners"),
+        );
         userData.lambent.dispose();
       }
       const { maxVaryings } = window.renderer.capabilities;
@@ -178,7 +330,12 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       return found;
     });
     const all = (value) => [value, value, value];
-    assert.deepEqual(layouts, { auto: all(false), varyings: all(false), fetch: all(true), few: all(true) });
+    assert.deepEqual(layouts, {
+      auto: all(false),
+      varyings: all(false),
+      fetch: all(true),
+      few: all(true),
+    });
   });
 
   it("stays an ordinary three object: bounds, picking, finding the asset again", async () => {
@@ -288,7 +445,12 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
         (b) => b.fill(0xff, b.length - 5000, b.length),
       ]) {
         const url = URL.createObjectURL(new Blob([change(whole.slice())]));
-        found.push(await window.load(url).then(() => "loaded", (error) => String(error.message ?? error)));
+        found.push(
+          await window.load(url).then(
+            () => "loaded",
+            (error) => String(error.message ?? error),
+          ),
+        );
         URL.revokeObjectURL(url);
       }
       return found;
@@ -304,18 +466,28 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       const { THREE, lambent, renderer } = window;
       const map = await window.environmentOf("environment.exr");
       map.mapping = THREE.EquirectangularReflectionMapping;
-      const cube = new THREE.WebGLCubeRenderTarget(64, { type: THREE.FloatType, magFilter: THREE.NearestFilter, minFilter: THREE.NearestFilter });
+      const cube = new THREE.WebGLCubeRenderTarget(64, {
+        type: THREE.FloatType,
+        magFilter: THREE.NearestFilter,
+        minFilter: THREE.NearestFilter,
+      });
       cube.fromEquirectangularTexture(renderer, map);
       const { LightProbeGenerator } = await window.probes;
       const made = await LightProbeGenerator.fromCubeRenderTarget(renderer, cube);
-      const out = [lambent.LambentLight.fromEquirectangular(map, 3), lambent.LambentLight.fromLightProbe(made)];
+      const out = [
+        lambent.LambentLight.fromEquirectangular(map, 3),
+        lambent.LambentLight.fromLightProbe(made),
+      ];
       map.dispose();
       cube.dispose();
       return out.map((light) => [...light.coefficients]);
     });
     const size = Math.hypot(...own);
     own.forEach((value, i) =>
-      assert.ok(Math.abs(value - probe[i]) < 0.01 * size, `coefficient ${i}: ${probe[i]}, not ${value}`),
+      assert.ok(
+        Math.abs(value - probe[i]) < 0.01 * size,
+        `coefficient ${i}: ${probe[i]}, not ${value}`,
+      ),
     );
   });
 

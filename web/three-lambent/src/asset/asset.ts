@@ -205,17 +205,20 @@ export class LambentAsset {
     return rtt;
   }
 
-  /** What a lost context took along is made again from the file's own bytes. */
+  /** What a lost context took along, or another renderer has, is made again from the file's bytes. */
   private follow(renderer: WebGLRenderer): void {
     const canvas = renderer.domElement as EventTarget;
     if (this.lost?.canvas === canvas) return;
-    this.lost?.canvas.removeEventListener("webglcontextrestored", this.lost.listener);
     const listener = () => {
       for (const mesh of this.relit) mesh.forget();
       for (const rtt of this.rtts.values()) rtt.dispose();
       this.rtts.clear();
       this.done = "";
     };
+    if (this.lost) {
+      this.lost.canvas.removeEventListener("webglcontextrestored", this.lost.listener);
+      listener();
+    }
     canvas.addEventListener("webglcontextrestored", listener);
     this.lost = { canvas, listener };
   }

@@ -67,10 +67,8 @@ interface Lit {
   pass: LightPass;
   /** The lobe's moments apply. */
   glossy: boolean;
-  /** For each row, besides the lobe's; none above 1. */
+  /** For each row, besides the lobe's. */
   scales: Float32Array | null;
-  /** What 1 of the scaled result stands for; null: results are floats, which need no unit. */
-  unit: number | null;
 }
 
 export class RelitMesh {
@@ -177,17 +175,20 @@ export class RelitMesh {
     const { description } = this.shared;
     const kind = kindOf(description, transfer, choices.transfer);
     const unshadowed = kind === "unshadowed" && description.transfer !== "unshadowed";
-    const from = kind === "shadowed" && description.transfer !== kind ? transfer.shadowed : transfer;
+    const from =
+      kind === "shadowed" && description.transfer !== kind ? transfer.shadowed : transfer;
     const uniforms: Record<string, IUniform> = {};
     const { receivers, grid } = transfer;
     let albedoOutside = false;
     if (transfer.vectors && from?.vectors) {
-      const vectors = unshadowed ? this.unshadowedVectors(transfer, transfer.vectors) : from.vectors;
+      const vectors = unshadowed
+        ? this.unshadowedVectors(transfer, transfer.vectors)
+        : from.vectors;
       albedoOutside = vectors.albedoOutside;
       const texture = new LitTexture(renderer, receivers, 1, this.what);
       const shape = { rows: 1, columns: vectors.bands ** 2, channels: vectors.channels };
       const pass = new TransferPass(vectors.numbers, shape, texture, [1, 1, 1], this.what);
-      this.lits.push({ texture, pass, glossy: false, scales: null, unit: null });
+      this.lits.push({ texture, pass, glossy: false, scales: null });
       uniforms.diffuseLit = { value: texture.target.texture };
       uniforms.diffuseALine = { value: texture.receiversALine };
     }
@@ -202,8 +203,7 @@ export class RelitMesh {
       const channels = unshadowed ? 1 : matrices.channels;
       const shape = { rows, columns, channels, shared: unshadowed };
       const pass = new TransferPass(numbers, shape, texture, matrices.glossy, this.what);
-      this.lits.push({ texture, pass, glossy: true, scales: null, unit: 1 });
-      uniforms.incidentUnit = { value: 1 };
+      this.lits.push({ texture, pass, glossy: true, scales: null });
       uniforms.incidentLit = { value: texture.target.texture };
       uniforms.incidentALine = { value: texture.receiversALine };
     }
@@ -236,10 +236,7 @@ export class RelitMesh {
     } else {
       pass = new TurnPass(this.normals(), biScale.tangents, rtt.bands, texture, this.what);
     }
-    // Halves have few digits below 2⁻¹⁴: what the scales have in common is left to the fragments.
-    const scales = rttTexture.scales();
-    const unit = Math.max(...scales) || 1;
-    this.lits.push({ texture, pass, glossy: false, scales: scales.map((s) => s / unit), unit });
+    this.lits.push({ texture, pass, glossy: false, scales: rttTexture.scales() });
 
     const fetch = this.mustFetch(renderer, rows);
     if (!this.geometry.hasAttribute("lambentTangent"))
@@ -248,7 +245,6 @@ export class RelitMesh {
     const uniforms: Record<string, IUniform> = {
       incidentLit: { value: texture.target.texture },
       incidentALine: { value: texture.receiversALine },
-      incidentUnit: { value: 1 },
       rtt: { value: rttTexture.texture },
       rttRows: { value: rttTexture.rows },
       views: { value: rtt.views },
@@ -294,8 +290,7 @@ export class RelitMesh {
     const corners = new Uint32Array(3 * count);
     for (let i = 0; i < count; ++i) {
       const first = i - (i % 3);
-      for (let k = 0; k < 3; ++k)
-        corners[3 * i + k] = index ? index.getX(first + k) : first + k;
+      for (let k = 0; k < 3; ++k) corners[3 * i + k] = index ? index.getX(first + k) : first + k;
     }
     expanded.setAttribute("lambentCorners", new BufferAttribute(corners, 3));
     expanded.boundingBox = this.geometry.boundingBox;
@@ -352,10 +347,7 @@ export class RelitMesh {
     light: Float64Array,
     lobeExponent: number | null,
   ): void {
-    // … and so is the light's own magnitude, to the next power of two.
-    const largest = light.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
-    const lightUnit = largest > 0 ? 2 ** Math.ceil(Math.log2(largest)) : 1;
-    for (const { texture, pass, glossy, scales, unit } of this.lits) {
+    for (const { texture, pass, glossy, scales } of this.lits) {
       const factors = new Float32Array(4 * Math.ceil(texture.rows / 4)).fill(1);
       if (glossy) {
         const exponent = lobeExponent ?? this.transfer!.matrices!.lobeExponent;
@@ -363,9 +355,7 @@ export class RelitMesh {
         for (let i = 0; i < texture.rows; ++i) factors[i] = moments[bandOf(i)];
       }
       scales?.forEach((scale, i) => (factors[i] *= scale));
-      if (unit !== null) this.material!.uniforms.incidentUnit.value = unit * lightUnit;
-      const scaled = unit === null ? light : light.map((value) => value / lightUnit);
-      pass.run(renderer, screen, scaled, factors);
+      pass.run(renderer, screen, light, factors);
     }
   }
 
@@ -423,4 +413,3 @@ function idMapTexture(
   texture.needsUpdate = true;
   return texture;
 }
-

@@ -12,9 +12,5 @@ void main() {
   lit = uvec4(0u);
   if (receiver >= receivers) return;
   begin(receiver);
-#if LAMBENT_ROWS == 1
-  lit.rgb = floatBitsToUint(result(0));
-#else
   lit = packedResults(at.x - column * LAMBENT_TEXELS);
-#endif
 }

@@ -4,8 +4,7 @@
 // Numbers of a position and view are coefficient after coefficient, each R, G, B, in groups of
 // four: RGBR GBRG BRGB … So three sums of every third group hold each channel in known places.
 //
-// Before this text stand: #define LAMBENT_FETCH, and with it LAMBENT_ADD, which adds `weight` times
-// the texels at `first` to incident[]; incident.glsl; LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the
+// Before this text stand: #define LAMBENT_FETCH; incident.glsl; LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the
 // light holds already); LAMBENT_RESPONSE, which reads all groups of a row and adds their products
 // with the light to sum0, sum1, sum2 (src/materials/incident-code.ts); LAMBENT_FILTER, LAMBENT_ID_MAP 0 or 1; row_place.glsl,
 // view_square.glsl, rtt_footprint.glsl, tangent_frame.glsl, shading_point.glsl.
@@ -23,8 +22,7 @@ vec4 incident[LAMBENT_GROUPS];
 
 void addIncident(int p, float weight) {
   ivec2 first = incidentPlace(p);
-  uvec4 words;
-  LAMBENT_ADD
+  for (int g = 0; g < LAMBENT_GROUPS; ++g) incident[g] += weight * incidentGroup(first, g);
 }
 
 // The light at this place of its triangle.
@@ -190,7 +188,6 @@ void main() {
 #else
     gl_FragColor.rgb = nearest(q);
 #endif
-    gl_FragColor.rgb *= incidentUnit;
   }
 #include <tonemapping_fragment>
 #include <colorspace_fragment>

@@ -3,8 +3,7 @@
 //
 // Before this text stand: #define LAMBENT_KIND 0 vertices, 1 texels, 2 mirror, 3 black, 4 unlit;
 // LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_FETCH, LAMBENT_MAP, LAMBENT_ALBEDO_OUTSIDE; with glossy
-// LAMBENT_LOBE, which adds y[i] times coefficient i for all of incident[], LAMBENT_ADD, which adds
-// `weight` times the texels at `first` to it, incident.glsl and sh.glsl; shading_point.glsl, base_color.glsl with a map, environment.glsl for a
+// LAMBENT_LOBE, which adds y[i] times coefficient i for all of incident[], incident.glsl and sh.glsl; shading_point.glsl, base_color.glsl with a map, environment.glsl for a
 // mirror.
 
 #include <common>
@@ -51,8 +50,7 @@ vec4 incident[LAMBENT_GROUPS];
 
 void addIncident(int p, float weight) {
   ivec2 first = incidentPlace(p);
-  uvec4 words;
-  LAMBENT_ADD
+  for (int g = 0; g < LAMBENT_GROUPS; ++g) incident[g] += weight * incidentGroup(first, g);
 }
 #endif
 
@@ -106,7 +104,7 @@ void main() {
     for (int k = 0; k < 3; ++k) addIncident(int(corners[k]), barycentric[k]);
 #endif
     LAMBENT_LOBE
-    gl_FragColor.rgb += base * incidentUnit * lobe;
+    gl_FragColor.rgb += base * lobe;
 #endif
 #endif
   }

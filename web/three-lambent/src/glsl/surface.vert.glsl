@@ -3,8 +3,7 @@
 // Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
 // LAMBENT_UV, LAMBENT_COLOR,
 // LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
-// corners, and vertices know their triangle); where they interpolate it LAMBENT_COPY, which writes
-// incident[] from the texels at `first` (src/materials/incident-code.ts), and incident.glsl.
+// corners, and vertices know their triangle); where they interpolate it incident.glsl.
 
 #include <common>
 #include <logdepthbuf_pars_vertex>
@@ -62,8 +61,7 @@ void main() {
 #endif
 #if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
   ivec2 first = incidentPlace(receiver);
-  uvec4 words;
-  LAMBENT_COPY
+  for (int g = 0; g < LAMBENT_GROUPS; ++g) incident[g] = incidentGroup(first, g);
 #endif
   vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * mvPosition;

@@ -1,7 +1,6 @@
 // Radiance that reaches receivers, M L, times a factor for each row: the product of
 // transfer_matrices.comp.glsl and, with one row, transfer_vectors.comp.glsl
-// (sloan2002precomputed eq. 8, 9 and 12; sloan2003biscale eq. 4). One row is written as the bits of
-// floats, more as halves (pack.glsl).
+// (sloan2002precomputed eq. 8, 9 and 12; sloan2003biscale eq. 4).
 //
 // Before this text stand: #define LAMBENT_ROWS, of the result; LAMBENT_TEXELS that a receiver takes;
 // LAMBENT_STORED_ROWS of a matrix; LAMBENT_QUADS, the columns in groups of four; LAMBENT_CHANNELS 1

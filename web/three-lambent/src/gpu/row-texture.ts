@@ -50,10 +50,12 @@ export function layoutUniform(layout: RowLayout): Int32Array {
 
 type TexelData = Float32Array | Uint16Array | Int8Array | Uint32Array;
 
-/** An array texture that forgets its pixels once they are on the GPU. */
+/**
+ * An array texture that forgets its pixels once they are on the GPU: after a lost context it is to be
+ * made again from the file's own bytes.
+ */
 export function makeRowTexture(data: TexelData, layout: RowLayout): DataArrayTexture {
   const { texelsARow, rowsALine, linesALayer, layers } = layout;
-  // The copy of the file's own bytes is what would be uploaded again after a lost context.
   const texture = new DataArrayTexture(
     data as unknown as Float32Array<ArrayBuffer>,
     texelsARow * rowsALine,

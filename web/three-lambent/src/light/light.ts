@@ -1,12 +1,7 @@
 // Distant light as spherical harmonics: what an asset is relit by.
 
 import type { LightProbe, Texture } from "three";
-import {
-  bandsOf,
-  coefficientCount,
-  evaluateHarmonics,
-  kMaxBands,
-} from "../sh/basis.js";
+import { bandsOf, coefficientCount, evaluateHarmonics, kMaxBands } from "../sh/basis.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
 import { hannWindow, lanczosWindow, minimalRingingWindow } from "../sh/window.js";
 import { capMoments, turnZonal } from "../sh/zonal.js";

@@ -58,7 +58,9 @@ export class EnvironmentUniforms {
   set(environment: Environment | null): void {
     const { texture = null, rotation, intensity = 1, discs = [], uniform } = environment ?? {};
     if (discs.length > kMostDiscs)
-      throw new RangeError(`three-lambent: ${discs.length} discs, where ${kMostDiscs} can be shown`);
+      throw new RangeError(
+        `three-lambent: ${discs.length} discs, where ${kMostDiscs} can be shown`,
+      );
     const u = this.uniforms;
     this.use(texture);
     u.hasEnvironmentMap.value = texture !== null;

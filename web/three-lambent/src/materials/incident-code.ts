@@ -1,35 +1,9 @@
 // The light that arrives at a surface, n² RGB numbers, as vectors of four that the rasteriser
-// interpolates: RGBR GBRG BRGB …, and the code that writes and reads them, written out.
+// interpolates: RGBR GBRG BRGB …, and the code that reads them, written out.
 
 /** Vectors of four for so many coefficients. */
 export function incidentGroups(coefficients: number): number {
   return Math.ceil((3 * coefficients) / 4);
-}
-
-/** Texels of eight halves for so many coefficients. */
-export function incidentTexels(coefficients: number): number {
-  return Math.ceil((3 * coefficients) / 8);
-}
-
-function fromTexels(coefficients: number, write: (group: number, value: string) => string): string {
-  const lines: string[] = [];
-  const groups = incidentGroups(coefficients);
-  for (let t = 0; t < incidentTexels(coefficients); ++t) {
-    lines.push(`words = texelFetch(incidentLit, first + ivec2(${t}, 0), 0);`);
-    lines.push(write(2 * t, "lowGroup(words)"));
-    if (2 * t + 1 < groups) lines.push(write(2 * t + 1, "highGroup(words)"));
-  }
-  return lines.join(" ");
-}
-
-/** Writes incident[] from the texels at `first`. */
-export function copyCode(coefficients: number): string {
-  return fromTexels(coefficients, (group, value) => `incident[${group}] = ${value};`);
-}
-
-/** Adds `weight` times the texels at `first` to incident[]. */
-export function addCode(coefficients: number): string {
-  return fromTexels(coefficients, (group, value) => `incident[${group}] += weight * ${value};`);
 }
 
 /** Adds coefficient i times y[i] for all of them to `lobe`. */

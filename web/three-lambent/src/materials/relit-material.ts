@@ -31,14 +31,7 @@ import {
   tangentFrame,
   viewSquare,
 } from "../generated/shaders.js";
-import {
-  addCode,
-  copyCode,
-  incidentGroups,
-  incidentTexels,
-  lobeCode,
-  responseCode,
-} from "./incident-code.js";
+import { incidentGroups, lobeCode, responseCode } from "./incident-code.js";
 
 /** LAMBENT_KIND of surface.frag.glsl. */
 export const kSurfaceKind = { vertices: 0, texels: 1, mirror: 2, black: 3, unlit: 4 } as const;
@@ -68,7 +61,8 @@ export interface PatchShape {
   idMap: boolean;
 }
 
-const kFootprintDefines = "#define LAMBENT_MOST_PROBES 4\n#define LAMBENT_LEAST_COSINE (1.0 / 64.0)\n";
+const kFootprintDefines =
+  "#define LAMBENT_MOST_PROBES 4\n#define LAMBENT_LEAST_COSINE (1.0 / 64.0)\n";
 
 const flag = (value: unknown) => (value ? 1 : 0);
 
@@ -80,14 +74,7 @@ function defines(values: Record<string, string | number>): string {
 
 /** How shaders find the light of a receiver. */
 function incidentParts(coefficients: number): string {
-  return (
-    defines({
-      TEXELS: incidentTexels(coefficients),
-      GROUPS: incidentGroups(coefficients),
-      COPY: copyCode(coefficients),
-      ADD: addCode(coefficients),
-    }) + incidentGlsl
-  );
+  return defines({ GROUPS: incidentGroups(coefficients) }) + incidentGlsl;
 }
 
 const inverse = new Matrix4();

@@ -1,7 +1,18 @@
 // The environment behind an asset.
 
-import { BufferGeometry, Float32BufferAttribute, Matrix4, Mesh, ShaderMaterial, Vector4 } from "three";
-import { backgroundFrag, backgroundVert, environment as environmentGlsl } from "../generated/shaders.js";
+import {
+  BufferGeometry,
+  Float32BufferAttribute,
+  Matrix4,
+  Mesh,
+  ShaderMaterial,
+  Vector4,
+} from "three";
+import {
+  backgroundFrag,
+  backgroundVert,
+  environment as environmentGlsl,
+} from "../generated/shaders.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
 
 /**
@@ -13,7 +24,10 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
 
   constructor(environment: Environment | null = null) {
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
+    geometry.setAttribute(
+      "position",
+      new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3),
+    );
     super(geometry);
     this.material = new ShaderMaterial({
       vertexShader: backgroundVert,

@@ -28,9 +28,7 @@ function bandFromBelow(l: number, r: Float64Array, below: Float64Array, out: Flo
       else if (m > 0) sum += vn * (p(1, m - 1, n) - p(-1, -m + 1, n));
       else sum += vn * (p(1, m + 1, n) + p(-1, -m - 1, n));
       if (wn !== 0)
-        sum +=
-          wn *
-          (m > 0 ? p(1, m + 1, n) + p(-1, -m - 1, n) : p(1, m - 1, n) - p(-1, -m + 1, n));
+        sum += wn * (m > 0 ? p(1, m + 1, n) + p(-1, -m - 1, n) : p(1, m - 1, n) - p(-1, -m + 1, n));
       const edge = n === l || n === -l;
       out[(m + l) * width + n + l] =
         sum / Math.sqrt(edge ? 2 * l * (2 * l - 1) : (l + n) * (l - n));
@@ -100,8 +98,14 @@ export function matrixOfQuaternion(q: { x: number; y: number; z: number; w: numb
   const z = q.z / length;
   const w = q.w / length;
   return [
-    1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-    2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-    2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
+    1 - 2 * (y * y + z * z),
+    2 * (x * y - w * z),
+    2 * (x * z + w * y),
+    2 * (x * y + w * z),
+    1 - 2 * (x * x + z * z),
+    2 * (y * z - w * x),
+    2 * (x * z - w * y),
+    2 * (y * z + w * x),
+    1 - 2 * (x * x + y * y),
   ];
 }

@@ -11,7 +11,8 @@ import { evaluateHarmonics } from "./basis.js";
 /** (1+cos(πl/w))/2 for every band, 0 for l ≥ w. */
 export function hannWindow(bands: number, width: number): Float64Array {
   const window = new Float64Array(bands);
-  for (let l = 0; l < bands && l < width; ++l) window[l] = (1 + Math.cos((Math.PI * l) / width)) / 2;
+  for (let l = 0; l < bands && l < width; ++l)
+    window[l] = (1 + Math.cos((Math.PI * l) / width)) / 2;
   return window;
 }
 

@@ -66,7 +66,8 @@ async function draw(state) {
   const map = environment ? await environmentOf(environment) : null;
   const bands = asset.info.bands;
   let light = new lambent.LambentLight(bands);
-  if (map) light = lambent.LambentLight.fromEquirectangular(map, bands).rotate(worldFromEnvironment);
+  if (map)
+    light = lambent.LambentLight.fromEquirectangular(map, bands).rotate(worldFromEnvironment);
   if (lightUrl) light.add(lambent.LambentLight.fromJson(await (await fetch(lightUrl)).json()));
   for (const disc of discs) light.addDisc(disc);
   asset.setLight(light);

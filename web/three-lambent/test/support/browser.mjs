@@ -6,7 +6,12 @@ import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 import { chromium } from "playwright-core";
 
-const kTypes = { js: "text/javascript", html: "text/html", png: "image/png", json: "application/json" };
+const kTypes = {
+  js: "text/javascript",
+  html: "text/html",
+  png: "image/png",
+  json: "application/json",
+};
 
 function chromiumPath() {
   try {
@@ -19,7 +24,11 @@ function chromiumPath() {
 /** `source` (an ES module in the package's folder, or its text) as one script for the browser. */
 export async function bundle(source) {
   const result = await build({
-    stdin: { contents: source, resolveDir: fileURLToPath(new URL("..", import.meta.url)), loader: "js" },
+    stdin: {
+      contents: source,
+      resolveDir: fileURLToPath(new URL("..", import.meta.url)),
+      loader: "js",
+    },
     bundle: true,
     format: "esm",
     write: false,
@@ -34,7 +43,8 @@ export async function bundle(source) {
  * that runs `script`.
  */
 export async function openPage({ script, folder = "", files = {} }) {
-  const html = '<!doctype html><html><body style="margin:0"><script type="module" src="/page.js"></script>';
+  const html =
+    '<!doctype html><html><body style="margin:0"><script type="module" src="/page.js"></script>';
   const all = { "page.js": script, "": html, "favicon.ico": "", ...files };
   const server = createServer((request, response) => {
     const name = decodeURIComponent(new URL(request.url, "http://host").pathname.slice(1));
@@ -69,7 +79,10 @@ export async function openPage({ script, folder = "", files = {} }) {
   page.on("console", (message) => {
     // Drivers that translate say so of themselves; that is not the page's fault.
     const text = message.text();
-    if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver Message|favicon/.test(text))
+    if (
+      ["error", "warning"].includes(message.type()) &&
+      !/GPU stall|GL Driver Message|favicon/.test(text)
+    )
       problems.push(text);
   });
   await page.goto(`http://127.0.0.1:${server.address().port}/`);

@@ -4,8 +4,12 @@ import { deflateSync } from "node:zlib";
 /** Chunks, padded to four bytes. */
 export function glb(json, bin) {
   const text = Buffer.from(JSON.stringify(json));
-  const pad = (bytes, fill) => Buffer.concat([bytes, Buffer.alloc((4 - (bytes.length % 4)) % 4, fill)]);
-  const chunks = [[0x4e4f534a, pad(text, 0x20)], [0x004e4942, pad(bin, 0)]];
+  const pad = (bytes, fill) =>
+    Buffer.concat([bytes, Buffer.alloc((4 - (bytes.length % 4)) % 4, fill)]);
+  const chunks = [
+    [0x4e4f534a, pad(text, 0x20)],
+    [0x004e4942, pad(bin, 0)],
+  ];
   const parts = [];
   for (const [type, data] of chunks) {
     const head = Buffer.alloc(8);
@@ -32,7 +36,12 @@ export function parseGlb(bytes) {
  * @param materials glTF materials
  * @param images PNG files as buffers; texture i is image i
  */
-export function sceneGlb(meshes, materials, images = [], samplers = [{ wrapS: 10497, wrapT: 33648 }]) {
+export function sceneGlb(
+  meshes,
+  materials,
+  images = [],
+  samplers = [{ wrapS: 10497, wrapT: 33648 }],
+) {
   const parts = [];
   const json = {
     asset: { version: "2.0" },
@@ -77,7 +86,10 @@ export function sceneGlb(meshes, materials, images = [], samplers = [{ wrapS: 10
     if (mesh.uvs) attributes.TEXCOORD_0 = accessor(mesh.uvs, "VEC2", 5126);
     if (mesh.colors) attributes.COLOR_0 = accessor(mesh.colors, "VEC3", 5126);
     const indices = accessor(mesh.indices, "SCALAR", 5125);
-    json.meshes.push({ name: mesh.name, primitives: [{ attributes, indices, material: mesh.material }] });
+    json.meshes.push({
+      name: mesh.name,
+      primitives: [{ attributes, indices, material: mesh.material }],
+    });
   }
   if (images.length > 0) {
     json.images = images.map((png) => ({ bufferView: view(png), mimeType: "image/png" }));
@@ -124,13 +136,18 @@ export function png(width, height, color) {
 export function exr(width, height, color) {
   const text = (s) => Buffer.from(`${s}\0`, "latin1");
   const ints = (...values) => Buffer.from(Int32Array.from(values).buffer);
-  const attribute = (name, type, data) => Buffer.concat([text(name), text(type), ints(data.length), data]);
+  const attribute = (name, type, data) =>
+    Buffer.concat([text(name), text(type), ints(data.length), data]);
   const channel = (name) => Buffer.concat([text(name), ints(2, 0, 1, 1)]);
   const box = ints(0, 0, width - 1, height - 1);
   const floats = (...values) => Buffer.from(Float32Array.from(values).buffer);
   const header = Buffer.concat([
     ints(20000630, 2),
-    attribute("channels", "chlist", Buffer.concat([..."BGR"].map(channel).concat([Buffer.alloc(1)]))),
+    attribute(
+      "channels",
+      "chlist",
+      Buffer.concat([..."BGR"].map(channel).concat([Buffer.alloc(1)])),
+    ),
     attribute("compression", "compression", Buffer.alloc(1)),
     attribute("dataWindow", "box2i", box),
     attribute("displayWindow", "box2i", box),

@@ -9,7 +9,11 @@ function ball({ name, center, radius, rings = 24, sectors = 36, material, colors
     for (let s = 0; s <= sectors; ++s) {
       const theta = (Math.PI * r) / rings;
       const phi = (2 * Math.PI * s) / sectors;
-      const n = [Math.sin(theta) * Math.cos(phi), Math.cos(theta), -Math.sin(theta) * Math.sin(phi)];
+      const n = [
+        Math.sin(theta) * Math.cos(phi),
+        Math.cos(theta),
+        -Math.sin(theta) * Math.sin(phi),
+      ];
       mesh.normals.push(...n);
       mesh.positions.push(...n.map((v, c) => center[c] + radius * v));
       mesh.uvs.push(s / sectors, r / rings);
@@ -35,7 +39,14 @@ function floor({ name = "floor", half, y = 0, cells = 16, material, repeat = 1 }
   const at = (j, i) => j * (cells + 1) + i;
   for (let j = 0; j < cells; ++j)
     for (let i = 0; i < cells; ++i)
-      mesh.indices.push(at(j, i), at(j + 1, i), at(j, i + 1), at(j, i + 1), at(j + 1, i), at(j + 1, i + 1));
+      mesh.indices.push(
+        at(j, i),
+        at(j + 1, i),
+        at(j, i + 1),
+        at(j, i + 1),
+        at(j + 1, i),
+        at(j + 1, i + 1),
+      );
   return mesh;
 }
 
@@ -55,7 +66,9 @@ const shiny = (color, metallic, roughness) => ({
   },
 });
 
-const checker = png(16, 8, (x, y) => ((x >> 1) + (y >> 1)) & 1 ? [240, 200, 90] : [30, 90 + 8 * x, 160]);
+const checker = png(16, 8, (x, y) =>
+  ((x >> 1) + (y >> 1)) & 1 ? [240, 200, 90] : [30, 90 + 8 * x, 160],
+);
 
 /** A coloured ball on a floor whose texture repeats and mirrors. */
 export const mattScene = sceneGlb(
@@ -76,17 +89,34 @@ export const mattScene = sceneGlb(
 /** Two glossy balls, one of them tinted by its vertices, on a glossy floor. */
 export const glossyScene = sceneGlb(
   [
-    ball({ name: "satin", center: [-0.6, 0.5, 0.1], radius: 0.5, material: 0, colors: (n) => n.map((v) => 0.6 + 0.4 * v) }),
+    ball({
+      name: "satin",
+      center: [-0.6, 0.5, 0.1],
+      radius: 0.5,
+      material: 0,
+      colors: (n) => n.map((v) => 0.6 + 0.4 * v),
+    }),
     ball({ name: "metal", center: [0.6, 0.5, -0.1], radius: 0.5, material: 1 }),
     floor({ half: 1.5, material: 2 }),
   ],
-  [shiny([0.9, 0.8, 0.7], 0.5, 0.6), shiny([0.9, 0.7, 0.4], 1, 0.4), shiny([0.5, 0.5, 0.6], 0.3, 0.5)],
+  [
+    shiny([0.9, 0.8, 0.7], 0.5, 0.6),
+    shiny([0.9, 0.7, 0.4], 1, 0.4),
+    shiny([0.5, 0.5, 0.6], 0.3, 0.5),
+  ],
 );
 
 /** A mirror, tinted, beside a matt ball, on a matt floor. */
 export const mirrorScene = sceneGlb(
   [
-    ball({ name: "mirror", center: [-0.6, 0.5, 0.1], radius: 0.5, material: 0, rings: 40, sectors: 60 }),
+    ball({
+      name: "mirror",
+      center: [-0.6, 0.5, 0.1],
+      radius: 0.5,
+      material: 0,
+      rings: 40,
+      sectors: 60,
+    }),
     ball({ name: "matt", center: [0.6, 0.5, -0.1], radius: 0.5, material: 1 }),
     floor({ half: 1.5, material: 1 }),
   ],
@@ -115,7 +145,10 @@ export const texelScene = sceneGlb(
 
 /** What a patch is spread over. */
 export const ballScene = sceneGlb(
-  [ball({ name: "ball", center: [0, 0.7, 0], radius: 0.7, material: 0 }), floor({ half: 1.5, material: 0 })],
+  [
+    ball({ name: "ball", center: [0, 0.7, 0], radius: 0.7, material: 0 }),
+    floor({ half: 1.5, material: 0 }),
+  ],
   [matt([0.7, 0.7, 0.7])],
 );
 
@@ -123,7 +156,11 @@ export const ballScene = sceneGlb(
 export const environmentExr = exr(64, 32, (x, y) => {
   const azimuth = 2 * Math.PI * ((x + 0.5) / 64 - 0.5);
   const elevation = Math.PI * (0.5 - (y + 0.5) / 32);
-  const d = [Math.cos(elevation) * Math.cos(azimuth), Math.sin(elevation), Math.cos(elevation) * Math.sin(azimuth)];
+  const d = [
+    Math.cos(elevation) * Math.cos(azimuth),
+    Math.sin(elevation),
+    Math.cos(elevation) * Math.sin(azimuth),
+  ];
   const up = 0.5 + 0.5 * d[1];
   const sun = 6 * Math.exp(8 * (0.5 * d[0] + 0.7 * d[1] + 0.51 * d[2] - 1));
   return [

@@ -1,0 +1,95 @@
+// The tool's server and a browser that shows its page.
+import { spawn } from "node:child_process";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+
+export const tool = process.env.LAMBENT_TOOL ?? "lambent";
+/** Where node finds playwright-core: a folder with node_modules. */
+const modules = process.env.LAMBENT_WEB_MODULES ?? process.cwd();
+
+export const kChromium = process.env.LAMBENT_CHROMIUM ?? "chromium";
+export const kSize = 200;
+
+/** `lambent view --web` in `cwd`; { url, port, stop() → exit code }. */
+export async function serve(cwd, files) {
+  const child = spawn(tool, ["view", ...files, "--web", "--port", "0", "--no-browser", "--quiet"], {
+    cwd,
+    stdio: ["ignore", "pipe", "pipe"],
+  });
+  const ended = new Promise((resolve) => child.on("exit", (code) => resolve(code)));
+  let [said, complained] = ["", ""];
+  child.stderr.on("data", (text) => (complained += text));
+  const url = await new Promise((resolve, reject) => {
+    child.stdout.on("data", (text) => {
+      said += text;
+      const found = /http:\/\/127\.0\.0\.1:\d+\//.exec(said);
+      if (found) resolve(found[0]);
+    });
+    child.on("exit", (code) => reject(new Error(`view --web ended with ${code}: ${complained}`)));
+    child.on("error", reject);
+  });
+  return {
+    url,
+    port: Number(new URL(url).port),
+    stop: () => {
+      child.kill("SIGINT");
+      return ended;
+    },
+  };
+}
+
+/** Chromium without a window, on the software driver that GL applications have. */
+export async function launch(more = []) {
+  const { chromium } = createRequire(join(modules, "package.json"))("playwright-core");
+  const { execFileSync } = await import("node:child_process");
+  const executablePath = execFileSync("which", [kChromium], { encoding: "utf8" }).trim();
+  return chromium.launch({
+    executablePath,
+    args: [
+      "--headless",
+      "--no-sandbox",
+      "--use-angle=gl-egl",
+      "--ignore-gpu-blocklist",
+      "--force-color-profile=srgb",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      ...more,
+    ],
+  });
+}
+
+/**
+ * The page at `url`, once it shows something. `complaints` fills with what it said on the console
+ * (errors, warnings, violations of its content policy) and with requests to other hosts.
+ */
+export async function openPage(browser, url, options = {}) {
+  const context = await browser.newContext({
+    viewport: { width: 1280, height: 800 },
+    deviceScaleFactor: 1,
+    ...options,
+  });
+  const page = await context.newPage();
+  const complaints = [];
+  // Software drivers tell of their own slowness.
+  const own = (text) => !/GPU stall due to ReadPixels|GL Driver Message|Automatic fallback/.test(text);
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type()) && own(message.text()))
+      complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  await page.addInitScript(() =>
+    document.addEventListener("securitypolicyviolation", (event) =>
+      console.error(`content policy: ${event.violatedDirective} ${event.blockedURI}`)));
+  page.on("request", (request) => {
+    const { protocol, origin } = new URL(request.url());
+    if (!["blob:", "data:"].includes(protocol) && origin !== new URL(url).origin)
+      complaints.push(`a request to ${request.url()}`);
+  });
+  await page.goto(url);
+  await page.waitForFunction(() => window.lambent !== undefined);
+  await page.evaluate(() => window.lambent.ready);
+  return { page, context, complaints };
+}
