@@ -58,6 +58,10 @@ class Uniform final : public Component {
       out[c * sh::coefficientCount(bands)] += std::sqrt(4 * kPi) * double(radiance_[c]);
   }
   ComponentPtr rotated(const Mat3&) const override { return makeUniform(radiance_); }
+  bool addTo(Environment::Parts& parts) const override {
+    parts.uniform += radiance_;
+    return true;
+  }
 
  private:
   Rgb radiance_;
@@ -88,6 +92,10 @@ class Disc final : public Component {
   ComponentPtr rotated(const Mat3& dstFromSrc) const override {
     return makeDisc(turned(dstFromSrc, axis_), 2 * halfAngle_, radiance_);
   }
+  bool addTo(Environment::Parts& parts) const override {
+    parts.discs.push_back({axis_.cast<float>(), versine_, radiance_});
+    return true;
+  }
 
  private:
   bool within(const Vec3& direction) const {
@@ -115,6 +123,7 @@ class Directional final : public Component {
   ComponentPtr rotated(const Mat3& dstFromSrc) const override {
     return makeDirectional(turned(dstFromSrc, direction_), irradiance_);
   }
+  bool addTo(Environment::Parts&) const override { return true; }  // no radiance to look up
 
  private:
   Vec3d direction_;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "lambent/image/image.h"
+#include "lambent/light/environment.h"
 #include "lambent/math/types.h"
 #include "lambent/sh/coefficients.h"
 
@@ -41,6 +42,8 @@ class Component {
   /// Adds the projection to `out`: 3·bands² doubles, channel after channel.
   virtual void addProjection(int bands, std::span<double> out) const = 0;
   virtual ComponentPtr rotated(const Mat3& dstFromSrc) const = 0;
+  /// Adds itself to what Environment::Parts has a place for; false: it has none.
+  virtual bool addTo(Environment::Parts&) const { return false; }
 };
 
 ComponentPtr makeUniform(const Rgb& radiance);

@@ -116,4 +116,11 @@ float Environment::pdf(const Vec3& direction) const {
   return float(density);
 }
 
+Environment::Parts Environment::parts() const {
+  Parts parts;
+  for (const ComponentPtr& part : impl_->components)
+    if (!part->addTo(parts)) parts.others.push_back(Environment(std::make_shared<Impl>(one(part))));
+  return parts;
+}
+
 }  // namespace lambent::light

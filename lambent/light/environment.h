@@ -56,11 +56,33 @@ class Environment {
   /// the sphere it integrates to 1 less the share of draws that goes to directional lights.
   float pdf(const Vec3& direction) const;
 
+  /// What radiance() adds up, for those who look it up elsewhere, as shaders do.
+  struct Parts;
+  Parts parts() const;
+
   struct Impl;
 
  private:
   explicit Environment(std::shared_ptr<const Impl> impl);
   std::shared_ptr<const Impl> impl_;
+};
+
+struct Environment::Parts {
+  struct Disc {
+    Vec3 axis;       ///< unit
+    double versine;  ///< 1 − cos of half the angular diameter
+    Rgb radiance;
+  };
+  /// As latLong(); pixels that were not finite are black. Environments that are rotations of one
+  /// another share the image.
+  struct LatLong {
+    std::shared_ptr<const image::Image> image;
+    Mat3 worldFromImage;
+  };
+  Rgb uniform = Rgb::Zero();
+  std::vector<Disc> discs;
+  std::vector<LatLong> images;
+  std::vector<Environment> others;  ///< of one component each
 };
 
 }  // namespace lambent::light

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "lambent/light/grid_distribution.h"
 #include "lambent/math/directions.h"
@@ -375,6 +376,32 @@ TEST(Sampling, OfBlackIsHarmless) {
     EXPECT_EQ(s.radianceOverPdf.abs().maxCoeff(), 0);
     EXPECT_TRUE(std::isfinite(s.pdf));
     EXPECT_NEAR(light.pdf(Vec3::UnitY()), 1 / (4 * kPi), 1e-6);
+  }
+}
+
+TEST(Environment, IsTheSumOfItsParts) {
+  const Mat3 turn = Eigen::AngleAxisf(1.1f, Vec3(1, -2, 0.5f).normalized()).toRotationMatrix();
+  const Environment image = Environment::latLong(randomImage(16, 8, 3));
+  const Environment whole = Environment::uniform(Rgb(0.1f, 0.2f, 0.3f)) + image.rotated(turn) +
+                            Environment::disc(Vec3::UnitX(), 1.2, Rgb(3, 2, 1)).rotated(turn) +
+                            Environment::directional(Vec3::UnitY(), Rgb::Ones()) +
+                            Environment::harmonics(randomHarmonics(3, 5)) +
+                            Environment::clampedCosine(Vec3::UnitZ(), Rgb(1, 0, 2));
+  const Environment::Parts parts = whole.parts();
+  ASSERT_EQ(parts.discs.size(), 1u);
+  ASSERT_EQ(parts.images.size(), 1u);
+  EXPECT_EQ(parts.others.size(), 2u);
+  EXPECT_EQ(parts.images[0].image, image.parts().images[0].image);
+  for (int k = 0; k < 200; ++k) {
+    const float z = (k + 0.5f) / 100 - 1, r = std::sqrt(1 - z * z), phi = 2.399963f * k;
+    const Vec3 d(r * std::cos(phi), r * std::sin(phi), z);
+    Rgb sum = parts.uniform;
+    for (const auto& disc : parts.discs)
+      if ((d - disc.axis).squaredNorm() <= 2 * disc.versine) sum += disc.radiance;
+    for (const auto& part : parts.images)
+      sum += Environment::latLong(*part.image).rotated(part.worldFromImage).radiance(d);
+    for (const Environment& other : parts.others) sum += other.radiance(d);
+    EXPECT_LT((sum - whole.radiance(d)).abs().maxCoeff(), 1e-4f) << d.transpose();
   }
 }
 

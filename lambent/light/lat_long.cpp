@@ -133,6 +133,11 @@ class LatLong final : public Component {
     return std::make_shared<LatLong>(pixels_, dstFromSrc * worldFromImage_);
   }
 
+  bool addTo(Environment::Parts& parts) const override {
+    parts.images.push_back({{pixels_, &pixels_->image}, worldFromImage_});
+    return true;
+  }
+
  private:
   /// The four pixels around a place, left before right, above before below.
   struct Taps {

@@ -3,39 +3,107 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace lambent::render {
+namespace {
 
+using light::Environment;
+
+constexpr std::size_t kMostDiscs = 16;
 // Twice the usual size of such pictures, so that resampling one costs no sharpness that a curved
 // mirror could show.
-constexpr int kWidth = 2048, kHeight = 1024;
+constexpr int kSharpWidth = 2048;
+// Harmonics of ten bands and cosines: what is bilinear between 0.7° is theirs to 1/1000.
+constexpr int kSmoothWidth = 512;
 
-Result<GlEnvironment> GlEnvironment::make(const light::Environment& environment,
-                                          int largestTexture) {
-  const int width = std::min(kWidth, largestTexture), height = std::min(kHeight, largestTexture);
-  std::vector<float> texels(std::size_t(width) * height * 4, 1.0f);
+Texture pictureOf(const Environment& environment, int width) {
+  const int height = std::max(width / 2, 1);
+  std::vector<Rgb> texels(std::size_t(width) * height);
   tbb::parallel_for(0, height, [&](int y) {
     const double elevation = kPi * (0.5 - (y + 0.5) / height);
     for (int x = 0; x < width; ++x) {
       const double azimuth = 2.0 * kPi * ((x + 0.5) / width - 0.5);
       const Vec3d direction(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
                             std::cos(elevation) * std::sin(azimuth));
-      const Rgb radiance = environment.radiance(direction.cast<float>());
-      for (int c = 0; c < 3; ++c) texels[(std::size_t(y) * width + x) * 4 + c] = radiance[c];
+      texels[std::size_t(y) * width + x] = environment.radiance(direction.cast<float>());
     }
   });
-  GlEnvironment made;
-  made.picture_ = makeTexture(GL_RGBA32F, width, height);
-  glTextureSubImage2D(made.picture_.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT,
-                      texels.data());
-  if (Status s = checkGl("uploading the environment"); !s) return s.error();
-  return made;
+  Texture texture = makeTexture(GL_RGB32F, width, height);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, texels.data());
+  return texture;
+}
+
+Environment discOf(const Environment::Parts::Disc& disc) {
+  return Environment::disc(disc.axis, 4.0 * std::asin(std::sqrt(0.5 * disc.versine)),
+                           disc.radiance);
+}
+
+}  // namespace
+
+std::string environmentDefines() {
+  return fmt::format("#define LAMBENT_MOST_DISCS {}\n", kMostDiscs);
+}
+
+Status GlEnvironment::set(const Environment& environment, int largestTexture) {
+  Environment::Parts parts = environment.parts();
+  Environment rest;
+  bool sharp = false;
+  const bool any = !parts.others.empty();
+  for (const Environment& other : parts.others) rest = rest + other;
+  for (std::size_t k = 0; k < parts.images.size();) {
+    const Environment::Parts::LatLong& part = parts.images[k];
+    const bool fits = part.image->width <= largestTexture && part.image->height <= largestTexture;
+    if (k == 0 && fits) {
+      ++k;
+      continue;
+    }
+    rest = rest + Environment::latLong(*part.image).rotated(part.worldFromImage);
+    sharp = true;
+    parts.images.erase(parts.images.begin() + std::ptrdiff_t(k));
+  }
+  for (; parts.discs.size() > kMostDiscs; sharp = true) {
+    rest = rest + discOf(parts.discs.back());
+    parts.discs.pop_back();
+  }
+
+  Texture made;
+  if (any || sharp)
+    made = pictureOf(rest, std::min(sharp ? kSharpWidth : kSmoothWidth, largestTexture));
+  rest_ = std::move(made);
+  if (parts.images.empty()) {
+    picture_ = Texture();
+    uploaded_.reset();
+  } else if (const auto& image = parts.images.front().image; image != uploaded_) {
+    picture_ = makeTexture(GL_RGB32F, image->width, image->height);
+    glTextureSubImage2D(picture_.name(), 0, 0, 0, image->width, image->height, GL_RGB, GL_FLOAT,
+                        image->pixels.data());
+    uploaded_ = image;
+  }
+  parts.others.clear();
+  parts_ = std::move(parts);
+  return checkGl("uploading the environment");
 }
 
 void GlEnvironment::bind(const Program& program, const Mat3& environmentFromWorld) const {
   program.setMatrix("environmentFromWorld", environmentFromWorld);
+  program.set("everywhere", parts_.uniform[0], parts_.uniform[1], parts_.uniform[2]);
+  program.set("hasPicture", int(!parts_.images.empty()));
+  program.set("hasRest", int(rest_.name() != 0));
+  if (!parts_.images.empty())
+    program.setMatrix("pictureFromEnvironment",
+                      Mat3(parts_.images.front().worldFromImage.transpose()));
+  program.set("discCount", int(parts_.discs.size()));
+  for (std::size_t k = 0; k < parts_.discs.size(); ++k) {
+    const auto& disc = parts_.discs[k];
+    program.set(fmt::format("discs[{}]", k).c_str(), disc.axis.x(), disc.axis.y(), disc.axis.z(),
+                float(disc.versine));
+    program.set(fmt::format("discRadiances[{}]", k).c_str(), disc.radiance[0], disc.radiance[1],
+                disc.radiance[2]);
+  }
   glBindTextureUnit(1, picture_.name());
+  glBindTextureUnit(2, rest_.name());
 }
 
 }  // namespace lambent::render

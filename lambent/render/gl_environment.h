@@ -1,20 +1,30 @@
 // What mirrors and the background show, on the GPU (shaders/environment.glsl).
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "lambent/light/environment.h"
 #include "lambent/render/gl_objects.h"
 
 namespace lambent::render {
 
+/// What shaders/environment.glsl wants before it.
+std::string environmentDefines();
+
 class GlEnvironment {
  public:
-  /// Uploads what `environment` is now; nothing is kept of it.
-  static Result<GlEnvironment> make(const light::Environment& environment, int largestTexture);
+  /// Its image (or the first of several) and up to 16 discs are shown as they are; what else it
+  /// has is gathered in a picture of 2048×1024 (smooth lights: 512×256). Uploads what it must: an
+  /// environment whose image is there already costs next to nothing, turned or with other discs.
+  Status set(const light::Environment& environment, int largestTexture);
   /// For the program that draws next, which includes environment.glsl.
   void bind(const Program& program, const Mat3& environmentFromWorld) const;
 
  private:
-  Texture picture_;
+  light::Environment::Parts parts_;               ///< without what is in rest_
+  std::shared_ptr<const image::Image> uploaded_;  ///< what picture_ holds
+  Texture picture_, rest_;
 };
 
 }  // namespace lambent::render

@@ -94,6 +94,7 @@ Status GlScene::addProgram(int lobeBands) {
                       std::string(shaderSource("sh.glsl"))};
   else
     fragment.parts = {"#define LAMBENT_GLOSSY 0"};
+  fragment.parts.push_back(environmentDefines());
   for (const char* part : {"base_color.glsl", "environment.glsl", "surface.frag.glsl"})
     fragment.parts.emplace_back(shaderSource(part));
   const Program::Stage stages[] = {

@@ -60,6 +60,13 @@ scene::Box moved(const scene::Box& box, const Mat4& dstFromSrc) {
 }  // namespace
 
 struct LiveRenderer::Impl {
+  Impl(const asset::Asset& from, const LiveOptions& chosen, const GlLimits& taken, GlScene made)
+      : asset(from),
+        options(chosen),
+        bounds(scene::bounds(from.scene)),
+        limits(taken),
+        scene(std::move(made)) {}
+
   const asset::Asset& asset;
   LiveOptions options;
   scene::Box bounds;
@@ -68,7 +75,8 @@ struct LiveRenderer::Impl {
   std::optional<GlTarget> target;
 
   light::Environment environment;
-  std::optional<GlEnvironment> environmentOnGpu;  ///< made when something shows it
+  GlEnvironment environmentOnGpu;  ///< brought up to date when something shows it
+  bool environmentStale = true;
 
   bool hasLight = false, stale = false;  ///< stale: M · L is due
   int samples = 0;                       ///< of the picture, the one that is pending included
@@ -77,18 +85,16 @@ struct LiveRenderer::Impl {
   std::optional<GlView> pending;
   Mat4 clipFromWorld = Mat4::Identity();
 
-  Status show(const LiveView& view) {
-    if ((view.background || scene.hasMirrors()) && !environmentOnGpu) {
-      Result<GlEnvironment> made = GlEnvironment::make(environment, limits.largestTexture);
-      if (!made) return made.error();
-      environmentOnGpu = std::move(*made);
-    }
+  Status showEnvironment(const LiveView& view) {
+    if (!environmentStale || !(view.background || scene.hasMirrors())) return Status::ok();
+    if (Status s = environmentOnGpu.set(environment, limits.largestTexture); !s) return s;
+    environmentStale = false;
     return Status::ok();
   }
 
   void fold() {
     if (!pending) return;
-    target->addToSum(*pending, background ? &*environmentOnGpu : nullptr);
+    target->addToSum(*pending, background ? &environmentOnGpu : nullptr);
     pending.reset();
   }
 };
@@ -122,20 +128,7 @@ Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const LiveOpt
   sceneOptions.biScale = options.biScale;
   Result<GlScene> scene = GlScene::make(asset, sceneOptions);
   if (!scene) return scene.error();
-  return LiveRenderer(std::unique_ptr<Impl>(new Impl{asset,
-                                                     options,
-                                                     scene::bounds(asset.scene),
-                                                     limits,
-                                                     std::move(*scene),
-                                                     {},
-                                                     {},
-                                                     {},
-                                                     false,
-                                                     false,
-                                                     0,
-                                                     false,
-                                                     {},
-                                                     Mat4::Identity()}));
+  return LiveRenderer(std::make_unique<Impl>(asset, options, limits, std::move(*scene)));
 }
 
 Status LiveRenderer::choose(const LiveOptions& options) {
@@ -154,7 +147,7 @@ Status LiveRenderer::setEnvironment(const light::Environment& environment) {
   const GlStateGuard guard;
   impl_->fold();  // as it was seen
   impl_->environment = environment;
-  impl_->environmentOnGpu.reset();
+  impl_->environmentStale = true;
   return Status::ok();
 }
 
@@ -229,7 +222,7 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
   if (Status s = checkView(view); !s) return s;
   const GlStateGuard guard;
   impl_->fold();
-  if (Status s = impl_->show(view); !s) return s;
+  if (Status s = impl_->showEnvironment(view); !s) return s;
   if (impl_->stale && !view.unlit) {
     if (Status s = impl_->scene.relight(); !s) return s;
     impl_->stale = false;
@@ -250,7 +243,7 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
       view.worldFromEnvironment.transpose() * view.worldFromAsset.topLeftCorner<3, 3>();
   seen.unlit = view.unlit;
   target.beginFrame();
-  impl_->scene.draw(seen, impl_->environmentOnGpu ? &*impl_->environmentOnGpu : nullptr);
+  impl_->scene.draw(seen, &impl_->environmentOnGpu);
   impl_->clipFromWorld = seen.clipFromWorld * assetFromWorld;
   impl_->background = view.background;
   impl_->pending = seen;

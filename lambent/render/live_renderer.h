@@ -54,7 +54,9 @@ class LiveRenderer {
   /// Other options; what they need is uploaded. If that fails, all stays as it was. Lobe and
   /// dependence on the view cost next to nothing, other transfer about what make() costs.
   Status choose(const LiveOptions& options);
-  /// What mirrors and the background show, as it stands before worldFromEnvironment.
+  /// What mirrors and the background show, as it stands before worldFromEnvironment. Rotations of
+  /// an image that was shown last, and up to 16 discs beside it, cost next to nothing: they can
+  /// change every frame. A new image is uploaded with the next frame that shows it.
   Status setEnvironment(const light::Environment& environment);
 
   /// One light for the whole asset, in the asset's own frame: sh::rotate(assetFromWorld, …).

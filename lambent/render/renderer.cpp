@@ -76,9 +76,8 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   if (!scene) return scene.error();
   std::optional<GlEnvironment> inMirrors;
   if (scene->hasMirrors()) {
-    Result<GlEnvironment> made = GlEnvironment::make(environment, limits.largestTexture);
-    if (!made) return made.error();
-    inMirrors = std::move(*made);
+    inMirrors.emplace();
+    if (Status s = inMirrors->set(environment, limits.largestTexture); !s) return s.error();
   }
   Result<GlTarget> target = GlTarget::make(width, height);
   if (!target) return target.error();
