@@ -257,7 +257,7 @@ describe("the page", () => {
         if (!(await control.isVisible())) continue;
         await control.scrollIntoViewIfNeeded();
         const box = await control.boundingBox();
-        assert.ok(box.x >= 0 && box.x + box.width <= 360.5 && box.y >= 0 && box.y + box.height <= 740,
+        assert.ok(box.x >= 0 && box.x + box.width <= 360.5 && box.y >= 0 && box.y + box.height <= 740.5,
           `${await control.evaluate((e) => e.outerHTML.slice(0, 80))} at ${JSON.stringify(box)}`);
       }
       const small = await page.evaluate(() =>

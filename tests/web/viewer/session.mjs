@@ -67,7 +67,7 @@ export async function launch(more = []) {
  */
 export async function openPage(browser, url, options = {}) {
   const context = await browser.newContext({
-    viewport: { width: 1280, height: 800 },
+    viewport: { width: 760, height: 420 },
     deviceScaleFactor: 1,
     ...options,
   });
