@@ -370,6 +370,43 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     assert.equal(found.info.bands, 5);
   });
 
+  it("shows the shadowed transfer that is kept beside, half of what an open square has", async () => {
+    const sample = new URL("../../../spec/samples/kept-shadowed.glb", import.meta.url);
+    writeFileSync(join(folder, "kept-shadowed.glb"), readFileSync(sample));
+    const { offers, sums } = await browser.page.evaluate(async () => {
+      const { THREE, lambent, renderer } = window;
+      const { scene, userData } = await window.load("kept-shadowed.glb");
+      const asset = userData.lambent;
+      asset.setLight(lambent.LambentLight.uniform([1, 1, 1]));
+      const camera = new THREE.PerspectiveCamera();
+      lambent.frameAutomatically(scene, camera, 1);
+      const target = new THREE.WebGLRenderTarget(64, 64, { type: THREE.FloatType });
+      const sums = {};
+      for (const choice of ["best", "unshadowed", "shadowed", "interreflected"]) {
+        asset.transfer = choice;
+        asset.update(renderer);
+        renderer.setRenderTarget(target);
+        renderer.setClearColor(0, 0);
+        renderer.clear();
+        renderer.render(scene, camera);
+        renderer.setRenderTarget(null);
+        const pixels = new Float32Array(4 * 64 * 64);
+        renderer.readRenderTargetPixels(target, 0, 0, 64, 64, pixels);
+        sums[choice] = pixels.reduce((sum, v, i) => sum + (i % 4 === 3 ? 0 : v), 0);
+      }
+      target.dispose();
+      const choices = ["shadowed", "interreflected"];
+      const offers = choices.map((choice) => asset.offers(choice));
+      asset.dispose();
+      return { offers, sums };
+    });
+    assert.deepEqual(offers, [true, true]);
+    assert.ok(sums.shadowed > 1);
+    assert.ok(Math.abs(sums.unshadowed / sums.shadowed - 2) < 1e-3, JSON.stringify(sums));
+    assert.equal(sums.best, sums.interreflected);
+    assert.ok(sums.interreflected > sums.shadowed);
+  });
+
   it("relights only when something changed", async () => {
     const updates = await browser.page.evaluate(async () => {
       const { lambent, renderer } = window;
