@@ -75,8 +75,8 @@ void run() {
       bestOf(15, {once(one), once(eight), once(many), once(empty), once(small), once(oneByOne),
                   once(cubeByCube),
                   [&] {
-                    target.clear();
-                    eight.draw(target.framebuffer.name(), side, side, clip, 1.0);
+                    target.beginFrame();
+                    eight.draw(target.framebuffer(), side, side, clip, 1.0);
                     glFinish();
                   },
                   [&] { readBack(faces, pixels); }, [&] { capture::project(picture, weights); }});

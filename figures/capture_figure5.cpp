@@ -44,10 +44,10 @@ Stage stage(const Studio& studio) {
   Stage result{bake(bunny, options).asset,
                {},
                light::Environment::uniform(Rgb::Constant(0.1f)),
-               lookAt(box.center() + r * Vec3(0.15f, 0.25f, 2.9f), box.center(), 45)};
+               lookAt(box.center() + r * Vec3(0.15f, 0.25f, 2.9f), box.center(), 43)};
   result.lamps.bodies = {
-      lamp("warm", box.center() + r * Vec3(-0.95f, 0.4f, 0.5f), 0.13f * r, Rgb(48, 20, 5)),
-      lamp("cool", box.center() + r * Vec3(0.95f, -0.1f, 0.55f), 0.13f * r, Rgb(5, 18, 46))};
+      lamp("warm", box.center() + r * Vec3(-0.9f, 0.4f, 0.35f), 0.13f * r, Rgb(48, 20, 5)),
+      lamp("cool", box.center() + r * Vec3(0.95f, -0.1f, 0.35f), 0.13f * r, Rgb(5, 18, 46))};
   return result;
 }
 

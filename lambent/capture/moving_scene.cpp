@@ -49,6 +49,22 @@ scene::Scene frozen(const MovingScene& scene, double time) {
   return result;
 }
 
+// Of each body the ball about the middle of its box: no corner has to be turned.
+scene::Box bounds(const MovingScene& scene, double time) {
+  scene::Box result;
+  for (const Body& body : scene.bodies) {
+    scene::Box own;
+    for (const Vec3& p : body.mesh.positions) own.extend(p);
+    if (own.empty()) continue;
+    const Mat4 placed = worldFromBody(body.motion, time);
+    const Vec3 center =
+        placed.topLeftCorner<3, 3>() * own.center() + Vec3(placed.topRightCorner<3, 1>());
+    result.extend(center - Vec3::Constant(0.5f * own.diagonal()));
+    result.extend(center + Vec3::Constant(0.5f * own.diagonal()));
+  }
+  return result;
+}
+
 Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path) {
   Result<scene_io::LoadedScene> loaded = scene_io::load(path);
   if (!loaded) return loaded.error();

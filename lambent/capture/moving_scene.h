@@ -56,6 +56,9 @@ struct MovingScene {
 /// and for capture by rays.
 scene::Scene frozen(const MovingScene& scene, double time);
 
+/// A box that holds all bodies as they stand at a time; not the smallest. Empty without bodies.
+scene::Box bounds(const MovingScene& scene, double time);
+
 struct LoadedMovingScene {
   MovingScene scene;
   Findings findings;

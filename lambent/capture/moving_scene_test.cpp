@@ -64,6 +64,11 @@ TEST(MovingScene, IsFrozenIntoEmittingMeshes) {
   const scene::Scene still = frozen(scene, 1);
   ASSERT_EQ(still.meshes.size(), 1u);
   EXPECT_LT((scene::bounds(still).center() - Vec3(2, 0, 0)).norm(), 1e-5f);
+  const scene::Box box = bounds(scene, 1), exact = scene::bounds(still);
+  EXPECT_TRUE((box.lower.array() <= exact.lower.array()).all());
+  EXPECT_TRUE((box.upper.array() >= exact.upper.array()).all());
+  EXPECT_LT(box.diagonal(), 2 * exact.diagonal());
+  EXPECT_TRUE(bounds(MovingScene{}, 0).empty());
   const scene::Material& material = still.materials[std::size_t(still.meshes[0].material)];
   EXPECT_TRUE((material.emission == Rgb(3, 2, 1)).all());
   EXPECT_FALSE(material.isDiffuse());

@@ -74,11 +74,14 @@ class KeptState {
 
 Mat4 inverseOfRigid(const Mat4& m) {
   Mat4 result = Mat4::Identity();
-  const Mat3 turned = m.topLeftCorner<3, 3>().transpose();
-  const Vec3 moved = -(turned * Vec3(m.topRightCorner<3, 1>()));
-  result.topLeftCorner<3, 3>() = turned;
-  result.topRightCorner<3, 1>() = moved;
+  const Mat3 back = m.topLeftCorner<3, 3>().transpose();
+  result.topLeftCorner<3, 3>() = back;
+  result.topRightCorner<3, 1>() = -(back * Vec3(m.topRightCorner<3, 1>()));
   return result;
+}
+
+Vec3 moved(const Mat4& rigid, const Vec3& point) {
+  return rigid.topLeftCorner<3, 3>() * point + Vec3(rigid.topRightCorner<3, 1>());
 }
 
 std::vector<float> interleaved(const sh::RgbCoefficients& light) {
@@ -212,8 +215,7 @@ void LightCapture::Impl::drawFaces(const Program& program, double time,
   float reach = 0;
   for (const GlBodies::Body& body : bodies.all()) {
     places.push_back(assetFromWorld * capture::worldFromBody(body.motion, time));
-    const Vec3 center = places.back().topLeftCorner<3, 3>() * body.center +
-                        Vec3(places.back().topRightCorner<3, 1>());
+    const Vec3 center = moved(places.back(), body.center);
     for (const Vec3& point : points) reach = std::max(reach, (center - point).norm() + body.radius);
   }
   for (int i = 0; i < 4; ++i) glEnable(GLenum(GL_CLIP_DISTANCE0 + i));
@@ -285,6 +287,16 @@ int LightCapture::bands() const {
 }
 int LightCapture::samples() const {
   return int(impl_->points.size());
+}
+
+scene::Box LightCapture::bounds(double time) const {
+  scene::Box result;
+  for (const GlBodies::Body& body : impl_->bodies.all()) {
+    const Vec3 center = moved(capture::worldFromBody(body.motion, time), body.center);
+    result.extend(center - Vec3::Constant(body.radius));
+    result.extend(center + Vec3::Constant(body.radius));
+  }
+  return result;
 }
 
 Result<std::vector<sh::RgbCoefficients>> LightCapture::read() const {

@@ -47,6 +47,10 @@ class LightCapture {
   int bands() const;
   int samples() const;
 
+  /// A box in the world that holds all bodies at `time`, for LiveView::others. Costs nothing that
+  /// grows with their triangles.
+  scene::Box bounds(double time) const;
+
   /// The light buffer on the CPU, one set for each sample. Waits for the GPU.
   Result<std::vector<sh::RgbCoefficients>> read() const;
 

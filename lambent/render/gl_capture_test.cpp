@@ -186,6 +186,18 @@ TEST_F(GlCapture, LeavesStateAsItWas) {
   EXPECT_FALSE(glIsEnabled(GL_CLIP_DISTANCE0));
 }
 
+TEST_F(GlCapture, KnowsWhereBodiesAre) {
+  const MovingScene scene = capture::demoSurroundings({Vec3(-1, -1, -1), Vec3(1, 1, 1)});
+  const LightCapture onGpu = make(scene, {Vec3::Zero()});
+  for (const double time : {0.0, 3.0}) {
+    const scene::Box exact = scene::bounds(capture::frozen(scene, time));
+    const scene::Box box = onGpu.bounds(time);
+    EXPECT_TRUE((box.lower.array() <= exact.lower.array() + 1e-5f).all());
+    EXPECT_TRUE((box.upper.array() >= exact.upper.array() - 1e-5f).all());
+    EXPECT_LT(box.diagonal(), 2 * exact.diagonal());
+  }
+}
+
 TEST_F(GlCapture, RefusesMoreThanATextureHolds) {
   const std::vector<Vec3> points(100000, Vec3::Zero());
   const Result<LightCapture> made = LightCapture::make({}, points, {{64, 2}, 5, 0});
