@@ -11,6 +11,7 @@
 #include "lambent/render/renderer.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/render/test_agreement.h"
+#include "lambent/render/test_shader.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/shade/test_assets.h"
 #include "lambent/shade/test_patches.h"
@@ -149,36 +150,6 @@ TEST(Renderer, DrawsFramesAndPicturesOfTheSameAsset) {
     ASSERT_TRUE((first->pixels[i] == again->pixels[i]).all()) << i;
 }
 
-/// Runs `body`, which turns input p of four vec4s into output p of four, on every input.
-std::vector<float> onGpu(const std::string& parts, const std::string& body,
-                         const std::vector<float>& inputs) {
-  const std::string source =
-      "layout(local_size_x = 64) in;\n"
-      "layout(std430, binding = 0) readonly buffer In { vec4 inputs[][4]; };\n"
-      "layout(std430, binding = 1) writeonly buffer Out { vec4 outputs[]; };\n"
-      "void main() {\n  uint p = gl_GlobalInvocationID.x;\n"
-      "  if (p >= uint(inputs.length())) return;\n" +
-      body + "}\n";
-  const Program::Stage stage{GL_COMPUTE_SHADER, "table", {parts, source}};
-  const Result<Program> program = Program::make({&stage, 1});
-  if (!program) {
-    ADD_FAILURE() << program.error().message;
-    return {};
-  }
-  const std::size_t count = inputs.size() / 16;
-  std::vector<float> outputs(4 * count);
-  const Buffer in = makeBuffer(inputs), out = makeBuffer(outputs.size() * sizeof(float));
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, in.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, out.name());
-  program->use();
-  glDispatchCompute(GLuint(count + 63) / 64, 1, 1);
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetNamedBufferSubData(out.name(), 0, GLsizeiptr(outputs.size() * sizeof(float)),
-                          outputs.data());
-  EXPECT_TRUE(checkGl("a table"));
-  return outputs;
-}
-
 TEST(ShaderConventions, ViewSquareEqualsTheLibrarys) {
   const Result<GlContext> context = GlContext::create();
   ASSERT_TRUE(context) << context.error().message;
@@ -193,8 +164,8 @@ TEST(ShaderConventions, ViewSquareEqualsTheLibrarys) {
     inputs.resize(inputs.size() + 13);
   }
   const std::vector<float> squares =
-      onGpu(std::string(shaderSource("view_square.glsl")),
-            "outputs[p] = vec4(squareFromHemisphere(inputs[p][0].xyz), 0.0, 0.0);\n", inputs);
+      test::onGpu(std::string(shaderSource("view_square.glsl")),
+                  "outputs[p] = vec4(squareFromHemisphere(inputs[p][0].xyz), 0.0, 0.0);\n", inputs);
   ASSERT_EQ(squares.size(), 4 * directions.size());
   for (std::size_t p = 0; p < directions.size(); ++p) {
     const Vec2 expected = math::squareFromHemisphere(directions[p]);
@@ -224,10 +195,10 @@ TEST(ShaderConventions, ProbesEqualTheLibrarys) {
     inputs.resize(inputs.size() + 10);
   }
   const std::vector<float> probes =
-      onGpu(footprintDefines() + std::string(shaderSource("rtt_footprint.glsl")),
-            "Probes found = probesOf(inputs[p][0].xy, inputs[p][0].zw, inputs[p][1].xy);\n"
-            "outputs[p] = vec4(found.level, float(found.count), found.stride);\n",
-            inputs);
+      test::onGpu(footprintDefines() + std::string(shaderSource("rtt_footprint.glsl")),
+                  "Probes found = probesOf(inputs[p][0].xy, inputs[p][0].zw, inputs[p][1].xy);\n"
+                  "outputs[p] = vec4(found.level, float(found.count), found.stride);\n",
+                  inputs);
   ASSERT_EQ(probes.size(), 4 * cases.size());
   for (std::size_t p = 0; p < cases.size(); ++p) {
     const shade::RttProbes expected =

@@ -189,5 +189,338 @@ TEST_F(Live, EqualsTheCpuAfterEverySwitch) {
   expectSwitched("back");
 }
 
+TEST_F(Live, EqualsTheCpuThroughEveryCamera) {
+  const asset::Asset asset = everything();
+  const Scenery scenery;
+  LiveRenderer renderer = rendererOf(asset);
+  ASSERT_TRUE(renderer.setEnvironment(scenery.environment));
+  LiveView view;
+  view.worldFromAsset = placed(turn(30, Vec3(1, 1, 0)), Vec3(5, -3, 2));
+  const auto expectThrough = [&](const std::string& name, const scene::Camera& assetCamera) {
+    view.camera = assetCamera;
+    view.camera.worldFromCamera = view.worldFromAsset * assetCamera.worldFromCamera;
+    expectAsOnCpu(name, renderer, asset, scenery, {}, view);
+  };
+  scene::Camera camera = kCamera;
+  camera.orthographicHalfHeight = 2.2f;
+  expectThrough("orthographic", camera);
+  camera = kCamera;
+  camera.worldFromCamera.col(0) *= -1.0f;  // right is left
+  expectThrough("mirrored", camera);
+  expectThrough("inside", cameraAt(Vec3(0.6f, 1.3f, 1.8f), Vec3(0, 0.6f, -0.5f)));
+}
+
+TEST_F(Live, FallsIntoBlocksWithoutSeams) {
+  const asset::Asset asset = everything();
+  const Scenery scenery;
+  LiveOptions options;
+  options.biScale.macro = MacroTransport::Off;
+  LiveRenderer renderer = rendererOf(asset, options, 24'000);
+  ASSERT_TRUE(renderer.setEnvironment(scenery.environment));
+  LiveView view;
+  view.camera = kCamera;
+  expectAsOnCpu("blocks", renderer, asset, scenery, options, view);
+}
+
+/// Two lights over the asset, the second's share rising along x: the buffer, and what the CPU makes
+/// of it.
+struct TwoLights {
+  sh::RgbCoefficients first = shade::test::sky().project(5), second = first;
+  capture::Blending blending;
+
+  explicit TwoLights(const asset::Asset& asset) {
+    second = sh::rotate(turn(150, Vec3(1, 0.2f, 0)), first);
+    for (float& value : second.values) value *= 0.7f;
+    blending.samples = {Vec3(-1, 0, 0), Vec3(0, 9, 0),
+                        Vec3(1, 0, 0)};  // the middle one is not used
+    for (const encode::EncodedMesh& mesh : asset.transfer.meshes) {
+      auto& weights = blending.meshes.emplace_back();
+      for (const Vec3& p : mesh.positions) {
+        const float share = std::clamp(0.5f + 0.3f * p.x(), 0.0f, 1.0f);
+        weights.push_back({{2, 0, 0, 1}, {share, 0.4f * (1 - share), 0.6f * (1 - share), 0.0f}});
+      }
+    }
+  }
+  std::vector<float> buffer(int bands) const {
+    std::vector<float> numbers;
+    for (const sh::RgbCoefficients& light : {first, sh::RgbCoefficients(5), second})
+      for (int k = 0; k < sh::coefficientCount(bands); ++k)
+        for (int c = 0; c < 3; ++c) numbers.push_back(light.channel(c)[k]);
+    return numbers;
+  }
+};
+
+/// What is linear in the light can be blended after it was applied: where all receivers of a point
+/// have one share, the picture is the blend of two pictures. So receivers are given transfer that
+/// holds their share: M_p (s a + (1 − s) b) = (s M_p) a + ((1 − s) M_p) b.
+asset::Asset scaledByShare(asset::Asset asset, const capture::Blending& blending, bool ofSecond) {
+  for (std::size_t m = 0; m < asset.transfer.meshes.size(); ++m) {
+    encode::EncodedMesh& mesh = asset.transfer.meshes[m];
+    const auto scale = [&](encode::Numbers& numbers) {
+      if (numbers.empty()) return;
+      std::vector<float> values = encode::decode(numbers);
+      const std::size_t each = values.size() / mesh.receiverCount();
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const float share = blending.meshes[m][i / each].weight[0];
+        values[i] *= ofSecond ? share : 1.0f - share;
+      }
+      numbers = encode::encode(values, Encoding::Float32);
+    };
+    scale(mesh.vectors);
+    scale(mesh.matrices);
+    if (mesh.biScale) {
+      scale(mesh.biScale->shadowed);
+      scale(mesh.biScale->interreflected);
+    }
+  }
+  return asset;
+}
+
+TEST_F(Live, BlendsLightsAsTheCpuDoes) {
+  asset::Asset asset = everything();
+  asset.scene.materials[std::size_t(asset.scene.meshes[3].material)].mirror = Rgb(0, 0, 1e-6f);
+  const TwoLights lights(asset);
+  LiveView view;
+  view.camera = kCamera;
+  view.background = false;
+  shade::PictureOptions picture;
+  picture.width = kWidth;
+  picture.height = kHeight;
+  picture.samples = 1;
+  const light::Environment black;
+  const auto one = shade::picture(scaledByShare(asset, lights.blending, false), lights.first, black,
+                                  kCamera, picture);
+  const auto other = shade::picture(scaledByShare(asset, lights.blending, true), lights.second,
+                                    black, kCamera, picture);
+  ASSERT_TRUE(one && other);
+  Image cpu = *one;
+  for (std::size_t i = 0; i < cpu.pixels.size(); ++i) cpu.pixels[i] += other->pixels[i];
+
+  for (const std::size_t largestBlock : {std::size_t(1) << 27, std::size_t(24'000)}) {
+    LiveRenderer renderer = rendererOf(asset, {}, largestBlock);
+    const Buffer buffer = makeChangingBuffer(lights.buffer(5).size() * sizeof(float));
+    // First nothing; then a pass of somebody's fills the buffer.
+    ASSERT_TRUE(renderer.setLightField(lights.blending, buffer.name(), 5));
+    ASSERT_TRUE(live(renderer, view, 1));
+    const std::vector<float> numbers = lights.buffer(5);
+    glNamedBufferSubData(buffer.name(), 0, GLsizeiptr(numbers.size() * sizeof(float)),
+                         numbers.data());
+    renderer.lightChanged();
+    Result<Image> gl = live(renderer, view, 1);
+    ASSERT_TRUE(gl);
+    // Ringing is cut off before the two are added here, and after there.
+    test::expectSame("live-field", cpu, *gl, {0, 0.1, 0.3});
+    // A switch keeps the field, and one light sets it aside.
+    LiveOptions options;
+    options.transfer = TransferChoice::Unshadowed;
+    ASSERT_TRUE(renderer.choose(options));
+    ASSERT_TRUE(live(renderer, view, 1));
+    ASSERT_TRUE(renderer.choose({}));
+    gl = live(renderer, view, 1);
+    ASSERT_TRUE(gl);
+    test::expectSame("live-field-again", cpu, *gl, {0, 0.1, 0.3});
+    renderer.setLight(lights.first);
+    picture.background = false;
+    const auto plain = shade::picture(asset, lights.first, black, kCamera, picture);
+    gl = live(renderer, view, 1);
+    ASSERT_TRUE(plain && gl);
+    test::expectSame("live-field-aside", *plain, *gl);
+  }
+}
+
+TEST_F(Live, SaysWhatDoesNotFit) {
+  const asset::Asset asset = everything();
+  LiveRenderer renderer = rendererOf(asset);
+  TwoLights lights(asset);
+  const Buffer small = makeChangingBuffer(64);
+  Status s = renderer.setLightField(lights.blending, small.name(), 5);
+  ASSERT_FALSE(s);
+  EXPECT_NE(s.error().message.find("64 bytes"), std::string::npos) << s.error().message;
+  lights.blending.meshes[0][0].sample[0] = 7;
+  s = renderer.setLightField(lights.blending, small.name(), 5);
+  ASSERT_FALSE(s);
+  EXPECT_NE(s.error().message.find("sample 7"), std::string::npos) << s.error().message;
+  lights.blending.meshes.pop_back();
+  EXPECT_FALSE(renderer.setLightField(lights.blending, small.name(), 5));
+
+  LiveView view;
+  view.worldFromAsset.topLeftCorner<3, 3>() *= 2.0f;
+  s = renderer.add(view);
+  ASSERT_FALSE(s);
+  EXPECT_NE(s.error().message.find("scaled"), std::string::npos);
+  LiveOptions options;
+  options.lobeExponent = -1.0f;
+  EXPECT_FALSE(renderer.choose(options));
+  EXPECT_FALSE(renderer.picture());
+  EXPECT_FALSE(renderer.resize(0, 5));
+}
+
+/// A framebuffer as a window has it.
+struct Window {
+  Texture color = makeTexture(GL_RGBA8, kWidth, kHeight);
+  Framebuffer framebuffer;
+  Window() {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    framebuffer = Framebuffer(name);
+    glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, color.name(), 0);
+  }
+  /// [y from the top][x][4] code values.
+  std::vector<std::uint8_t> pixels() const {
+    std::vector<std::uint8_t> rows(4u * kWidth * kHeight), result;
+    glGetTextureImage(color.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(rows.size()),
+                      rows.data());
+    for (int y = kHeight - 1; y >= 0; --y)
+      result.insert(result.end(), rows.begin() + std::ptrdiff_t(4) * kWidth * y,
+                    rows.begin() + std::ptrdiff_t(4) * kWidth * (y + 1));
+    return result;
+  }
+};
+
+TEST_F(Live, ShowsWhatPictureReadsBack) {
+  const asset::Asset asset = everything();
+  const Scenery scenery;
+  LiveRenderer renderer = rendererOf(asset);
+  ASSERT_TRUE(renderer.setEnvironment(scenery.environment));
+  renderer.setLight(scenery.worldLight);
+  LiveView view;
+  view.camera = kCamera;
+  const Window window;
+  for (const bool background : {true, false})
+    for (const auto curve : {radiometry::ToneCurve::Filmic, radiometry::ToneCurve::Linear}) {
+      view.background = background;
+      const Result<Image> picture = live(renderer, view, 3);
+      ASSERT_TRUE(picture);
+      // What a window's own drawing may leave behind.
+      glEnable(GL_SCISSOR_TEST);
+      glScissor(0, 0, 3, 3);
+      glEnable(GL_BLEND);
+      glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+      ASSERT_TRUE(renderer.show(window.framebuffer.name(), 0.7f, curve));
+      EXPECT_TRUE(glIsEnabled(GL_SCISSOR_TEST));
+      EXPECT_TRUE(glIsEnabled(GL_BLEND));
+      GLboolean mask[4];
+      glGetBooleanv(GL_COLOR_WRITEMASK, mask);
+      EXPECT_FALSE(mask[0]);
+      glDisable(GL_SCISSOR_TEST);
+      glDisable(GL_BLEND);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+
+      const Image expected = radiometry::toneMap(*picture, 0.7f, curve);
+      const std::vector<std::uint8_t> shown = window.pixels();
+      for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+          ASSERT_NEAR(shown[4 * i + std::size_t(c)],
+                      255.0f * radiometry::srgbEncode(expected.pixels[i][c]), 0.51f)
+              << i;
+    }
+}
+
+TEST_F(Live, StateThatOthersLeftChangesNothing) {
+  const asset::Asset asset = everything();
+  const Scenery scenery;
+  LiveRenderer renderer = rendererOf(asset);
+  ASSERT_TRUE(renderer.setEnvironment(scenery.environment));
+  renderer.setLight(scenery.worldLight);
+  LiveView view;
+  view.camera = kCamera;
+  const Result<Image> before = live(renderer, view, 2);
+  for (const GLenum which : {GL_BLEND, GL_SCISSOR_TEST, GL_CULL_FACE, GL_STENCIL_TEST,
+                             GL_FRAMEBUFFER_SRGB, GL_RASTERIZER_DISCARD, GL_DEPTH_CLAMP})
+    glEnable(which);
+  glCullFace(GL_FRONT_AND_BACK);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glScissor(5, 5, 1, 1);
+  glStencilFunc(GL_NEVER, 0, 0);
+  glDepthFunc(GL_GREATER);
+  glDepthMask(GL_FALSE);
+  glDepthRange(1, 0);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  glFrontFace(GL_CW);
+  const Result<Image> after = live(renderer, view, 2);
+  ASSERT_TRUE(before && after);
+  for (std::size_t i = 0; i < before->pixels.size(); ++i)
+    ASSERT_TRUE((before->pixels[i] == after->pixels[i]).all()) << i;
+}
+
+// What others draw after add() is in the picture, and hides and is hidden by depth.
+TEST_F(Live, TakesInWhatOthersDraw) {
+  asset::Asset asset;
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3::Zero(), 0.5f, 8), {});
+  LiveRenderer renderer = rendererOf(asset);
+  renderer.setLight(shade::test::sky().project(5));
+  LiveView view;
+  view.camera = cameraAt(Vec3(0, 0, 5), Vec3::Zero());
+  view.background = false;
+  for (const float z : {-20.0f, 3.0f}) view.others.extend(Vec3(0, 0, z));
+  ASSERT_TRUE(renderer.add(view));
+  // The far and the near end of the other things are within clip space.
+  for (const float z : {-20.0f, 3.0f}) {
+    const Eigen::Vector4f clip = renderer.clipFromWorld() * Eigen::Vector4f(0, 0, z, 1);
+    EXPECT_LT(std::abs(clip.z()), clip.w()) << z;
+  }
+  const float lamp[4] = {5, 4, 3, 1};
+  glClearNamedFramebufferfv(renderer.framebuffer(), GL_COLOR, 0, lamp);
+  const Result<Image> picture = renderer.picture();
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->at(3, 3).x(), 5.0f);
+  EXPECT_EQ(picture->alpha[0], 1.0f);
+}
+
+TEST_F(Live, UnlitShowsTheBaseColour) {
+  asset::Asset asset;
+  scene::Mesh mesh = shade::test::sphere(Vec3::Zero(), 1.0f, 12);
+  mesh.colors.assign(mesh.positions.size(), Rgb(0.25f, 0.5f, 1.0f));
+  shade::test::addDiffuse(asset, mesh, {});
+  const Rgb diffuse = asset.scene.materials[0].diffuse;
+  LiveRenderer renderer = rendererOf(asset);  // and no light at all
+  LiveView view;
+  view.camera = kCamera;
+  view.background = false;
+  view.unlit = true;
+  ASSERT_TRUE(renderer.add(view));
+  const Result<Image> picture = renderer.picture();
+  ASSERT_TRUE(picture);
+  EXPECT_TRUE(
+      picture->at(kWidth / 2, kHeight / 2)
+          .isApprox(Rgb(0.25f, 0.5f, 1.0f) * (diffuse + asset.scene.materials[0].glossy), 1e-5f));
+}
+
+/// Objects of every kind that are alive, among the first names: drivers hand out small names.
+int objectsAlive() {
+  int alive = 0;
+  for (GLuint name = 1; name < 4096; ++name)
+    alive += glIsBuffer(name) + glIsTexture(name) + glIsFramebuffer(name) + glIsVertexArray(name) +
+             glIsProgram(name) + glIsShader(name);
+  return alive;
+}
+
+TEST_F(Live, LeavesNoObjectsBehind) {
+  asset::Asset asset;
+  shade::test::addGlossy(asset, shade::test::sphere(Vec3::Zero(), 0.6f, 4), 3, 3, 1,
+                         Encoding::Float16);
+  shade::test::addMirror(asset, shade::test::sphere(Vec3(1, 0, 0), 0.3f, 4), Rgb::Ones());
+  shade::test::addPatched(asset, scene::uvSphere(0.3f, 6, 4), shade::test::bumpyRtt(4, 4, 2, 2),
+                          {});
+  const TwoLights lights(asset);
+  const Buffer buffer = makeBuffer(lights.buffer(5));
+  const int before = objectsAlive();
+  LiveView view;
+  view.camera = kCamera;
+  for (int round = 0; round < 50; ++round) {
+    LiveRenderer renderer = rendererOf(asset);
+    ASSERT_TRUE(renderer.setLightField(lights.blending, buffer.name(), 5));
+    LiveOptions options;
+    options.transfer = round % 2 ? TransferChoice::Unshadowed : TransferChoice::Best;
+    options.biScale.filter = round % 2;
+    ASSERT_TRUE(renderer.choose(options));
+    ASSERT_TRUE(renderer.add(view));
+    ASSERT_TRUE(renderer.picture());
+    EXPECT_GT(objectsAlive(), before + 20);
+  }
+  EXPECT_EQ(objectsAlive(), before);
+}
+
 }  // namespace
 }  // namespace lambent::render
