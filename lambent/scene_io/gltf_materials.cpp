@@ -124,7 +124,7 @@ void GltfMaterials::readMaterial(const json& object, int index) {
 Rgb GltfMaterials::readEmission(const json& object, const std::string& place) {
   const auto factor = rgb(&object, "emissiveFactor");
   if (!factor || !(factor->maxCoeff() > 0.0f)) return Rgb::Zero();
-  Rgb emission = factor->max(0.0f);
+  Rgb emission = factor->max(0.0f).min(1.0f);
   const json* strength = find(find(object, "extensions"), "KHR_materials_emissive_strength");
   emission *= float(std::clamp(number(strength, "emissiveStrength", 1.0), 0.0, 1e9));
   if (const json* info = find(object, "emissiveTexture")) {

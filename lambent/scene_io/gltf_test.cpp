@@ -181,12 +181,16 @@ TEST(Gltf, BrightEmissionGoesIntoTheStrength) {
   Document d;
   d.positions(kTriangle);
   d.j["materials"] = json::parse(R"([{"extensions": {"KHR_materials_emissive_strength":
-      {"emissiveStrength": 5}}}, {"emissiveFactor": [0.5, 0, 0]}])");
+      {"emissiveStrength": 5}}}, {"emissiveFactor": [0.5, 0, 0]},
+      {"emissiveFactor": [1e300, -1, 0], "extensions": {"KHR_materials_emissive_strength":
+      {"emissiveStrength": 1e300}}}])");
   d.primitive()["material"] = 1;
   const auto plain = load(d.write(folder));
   ASSERT_TRUE(plain) << plain.error().message;
   EXPECT_FALSE(plain->scene.materials[0].isEmitter());
   EXPECT_TRUE(plain->scene.materials[1].emission.isApprox(Rgb(0.5f, 0, 0)));
+  EXPECT_TRUE(plain->scene.materials[2].emission.isFinite().all());
+  EXPECT_GE(plain->scene.materials[2].emission.minCoeff(), 0);
 }
 
 TEST(Gltf, NodeTransformsAndInstances) {
