@@ -12,6 +12,7 @@ const std::string_view kOverviewFooter = R"(In the sequence in which a person us
   lambent bake model.glb -o baked.glb                  simulate once how light moves over it
   lambent render baked.glb --light sky.exr -o a.png    relight it, as often as you like
   lambent render baked.glb --light disc:30,45,20 -o b.png
+  lambent view baked.glb sky.exr studio.exr            move light, object and camera
   lambent reference model.glb --light sky.exr -o truth.exr
   lambent render baked.glb --light sky.exr -o ours.exr
   lambent compare truth.exr ours.exr --strip strip.png how far from the truth is it?

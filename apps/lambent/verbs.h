@@ -26,6 +26,7 @@ Verb addReference(CLI::App& root, ConsoleOptions& common);
 Verb addCompare(CLI::App& root, ConsoleOptions& common);
 Verb addRtt(CLI::App& root, ConsoleOptions& common);
 Verb addSynthesize(CLI::App& root, ConsoleOptions& common);
+Verb addView(CLI::App& root, ConsoleOptions& common);
 Verb addInfo(CLI::App& root, ConsoleOptions& common);
 
 }  // namespace lambent::tool

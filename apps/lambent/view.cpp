@@ -1,0 +1,136 @@
+// lambent view [ASSET] [ENVIRONMENT…]
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/lambent/arguments.h"
+#include "apps/lambent/help.h"
+#include "apps/lambent/verbs.h"
+#include "apps/lambent/web_server.h"
+#include "apps/viewer/viewer.h"
+
+namespace lambent::tool {
+
+namespace {
+
+struct Arguments {
+  std::filesystem::path asset, state, script, screenshot;
+  std::vector<std::string> environments;
+  Size size{1280, 800};
+  bool hidden = false, noPanel = false;
+  bool web = false, noBrowser = false;
+  int port = 0;
+};
+
+constexpr std::string_view kExamples = R"(
+Examples:
+  lambent view bunny.glb sky.exr studio.exr
+      E switches between the environments; ? shows what else keys and mouse do.
+  lambent view bunny.glb --view state.json
+      As it was when the state was saved (Ctrl+S).
+  lambent view bunny.glb sky.exr --screenshot bunny.png --size 1024x1024
+      Draws the picture, saves it and ends.
+  lambent view bunny.glb sky.exr --web
+      The same in a browser on this machine; nothing outside it can see the page.
+  xvfb-run -a lambent view bunny.glb --script tour.txt
+      A session without anybody: for tests and for pictures.
+
+)";
+
+/// A screenshot is a script of one line.
+Result<viewer::Script> scriptFor(const std::filesystem::path& screenshot) {
+  return viewer::parseScript(fmt::format("screenshot \"{}\"\n", screenshot.string()),
+                             "--screenshot");
+}
+
+Status runView(const Arguments& arguments, Console& console) {
+  if (arguments.web)
+    return serveViewer(arguments.asset, arguments.environments, arguments.port,
+                       !arguments.noBrowser, console);
+  viewer::ViewerOptions options;
+  options.asset = arguments.asset;
+  options.environments = arguments.environments;
+  options.state = arguments.state;
+  options.window.size = {arguments.size.width, arguments.size.height};
+  options.window.visible = !arguments.hidden;
+  options.panel = !arguments.noPanel && arguments.screenshot.empty();
+  options.print = [](const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  if (!arguments.screenshot.empty()) {
+    if (Status s = checkOutput(arguments.screenshot, {".png"}, arguments.asset); !s) return s;
+    auto script = scriptFor(arguments.screenshot);
+    if (!script) return script.error();
+    options.script = std::move(*script);
+    options.window.visible = false;
+  }
+  if (!arguments.script.empty()) {
+    auto script = viewer::readScript(arguments.script);
+    if (!script) return script.error();
+    options.script = std::move(*script);
+  }
+  if (Status s = viewer::view(std::move(options)); !s) return s;
+  if (!arguments.screenshot.empty())
+    console.finish(
+        {{"output", arguments.screenshot.string()}},
+        fmt::format("{}: {}\n", arguments.screenshot.string(), formatSize(arguments.size)));
+  return Status::ok();
+}
+
+}  // namespace
+
+Verb addView(CLI::App& root, ConsoleOptions& common) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* app =
+      root.add_subcommand("view", "Relight an asset in a window, while everything moves");
+  app->group("Verbs");
+  app->footer(std::string(kSourceHelp) + std::string(kExamples) + std::string(viewer::kScriptHelp));
+  app->add_option("ASSET", arguments->asset,
+                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote; others can be dropped "
+                  "on the window");
+  app->add_option("ENVIRONMENT", arguments->environments,
+                  "SOURCEs of light to switch between (see below). None: a plain white sky");
+  app->add_option("--view", arguments->state, "A state that was saved in a viewer")
+      ->option_text("STATE.json")
+      ->group("View");
+  addParsed(*app, "--size", arguments->size, parseSize, "Size of the window (default: 1280x800)")
+      ->option_text("WIDTHxHEIGHT")
+      ->group("View");
+  app->add_flag("--no-panel", arguments->noPanel,
+                "Begin with the picture alone; Tab shows the panel")
+      ->group("View");
+  CLI::Option* screenshot = app->add_option("--screenshot", arguments->screenshot,
+                                            "Draw the picture, of --size, save it and end")
+                                ->option_text("OUT.png")
+                                ->group("Without anybody");
+  CLI::Option* script = app->add_option("--script", arguments->script,
+                                        "Run the commands of a file, and end (see below)")
+                            ->option_text("FILE")
+                            ->group("Without anybody");
+  app->add_flag("--hidden", arguments->hidden, "Do not show the window; it still takes a display")
+      ->group("Without anybody");
+  script->excludes(screenshot);
+  CLI::Option* web =
+      app->add_flag("--web", arguments->web, "Serve a page on this machine instead of a window")
+          ->group("Page");
+  app->add_option("--port", arguments->port, "Of the page; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->option_text("N")
+      ->capture_default_str()
+      ->needs(web)
+      ->group("Page");
+  app->add_flag("--no-browser", arguments->noBrowser, "Print the page's address and open nothing")
+      ->needs(web)
+      ->group("Page");
+  web->excludes(script)->excludes(screenshot);
+  addCommonOptions(*app, common);
+  return {app, [arguments](Console& console) { return runView(*arguments, console); }};
+}
+
+}  // namespace lambent::tool

@@ -1,0 +1,162 @@
+// What lies over the picture: remarks, help, the question for a file, problems.
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "apps/viewer/actions.h"
+#include "apps/viewer/gestures.h"
+#include "apps/viewer/panels.h"
+
+namespace lambent::viewer {
+
+namespace {
+
+constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings |
+                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                      ImGuiWindowFlags_AlwaysAutoResize;
+
+void helpRow(const char* keys, const char* text) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(keys);
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", text);
+}
+
+void helpTitle(std::string_view title) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::Spacing();
+  ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s",
+                     std::string(title).c_str());
+}
+
+}  // namespace
+
+void drawHelp(Session& session, const Layout& layout) {
+  const PixelSize& window = layout.window;
+  const float scale = layout.scale;
+  const ImVec2 size(std::min(760.0f * scale, float(window.width) - 24 * scale),
+                    std::min(640.0f * scale, float(window.height) - 24 * scale));
+  ImGui::SetNextWindowSize(size);
+  ImGui::SetNextWindowPos({0.5f * float(window.width), 0.5f * float(window.height)}, 0,
+                          {0.5f, 0.5f});
+  ImGui::SetNextWindowFocus();
+  if (ImGui::Begin("Keys and mouse", &session.desk.help,
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+    // Two columns where there is room for them; each a table of keys and what they do.
+    const bool wide = size.x > 600 * scale;
+    const auto all = actions();
+    std::size_t next = 0;
+    const float width = wide ? 0.5f * ImGui::GetContentRegionAvail().x : 0.0f;
+    const auto column = [&](const char* id, bool mouse, std::size_t last) {
+      if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit, {width, 0})) return;
+      if (mouse) {
+        helpTitle("Mouse");
+        for (const auto& [how, what] : gestureHelp()) helpRow(how, what);
+      }
+      for (std::string_view group; next < last; ++next) {
+        if (all[next].group != group) helpTitle(group = all[next].group);
+        helpRow(all[next].keys.c_str(), std::string(all[next].text).c_str());
+      }
+      ImGui::EndTable();
+    };
+    std::size_t half = 0;
+    while (half < all.size() && all[half].group != "Object") ++half;
+    column("left", true, wide ? half : all.size());
+    if (wide) {
+      ImGui::SameLine();
+      column("right", false, all.size());
+    }
+  }
+  ImGui::End();
+}
+
+void drawRemarks(const Session& session, const Layout& layout) {
+  const PixelSize picture = layout.pictureUnits();
+  const float scale = layout.scale;
+  std::string text;
+  const std::string reading = session.loader().reading();
+  if (!reading.empty())
+    text = session.loader().seconds() > 1.0
+               ? fmt::format("reading {} … {:.0f} s", reading, session.loader().seconds())
+               : fmt::format("reading {} …", reading);
+  for (const Notices::Remark& remark : session.notices.remarks())
+    text += (text.empty() ? "" : "\n") + remark.text;
+  if (!text.empty()) {
+    ImGui::SetNextWindowPos({14 * scale, float(picture.height) - 14 * scale}, 0, {0, 1});
+    ImGui::SetNextWindowBgAlpha(0.75f);
+    ImGui::Begin("remarks", nullptr, kOverlay | ImGuiWindowFlags_NoInputs);
+    ImGui::PushTextWrapPos(std::max(float(picture.width) - 60 * scale, 100.0f));
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+  }
+  if (session.stage.empty() && reading.empty()) {
+    ImGui::SetNextWindowPos({0.5f * float(picture.width), 0.5f * float(picture.height)}, 0,
+                            {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(0.0f);
+    ImGui::Begin("nothing", nullptr, kOverlay | ImGuiWindowFlags_NoInputs);
+    ImGui::TextDisabled("Drop a baked asset here, or press O");
+    ImGui::End();
+  }
+}
+
+void Panels::drawQuestion(Session& session) {
+  const char* title = "Open a file";
+  if (session.desk.askForFile && !asking_) ImGui::OpenPopup(title);
+  asking_ = session.desk.askForFile;
+  const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({32 * ImGui::GetFontSize(), 0});
+  if (!ImGui::BeginPopupModal(title, nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+    return;
+  if (!session.desk.askForFile) {
+    ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    return;
+  }
+  ImGui::TextDisabled(
+      "A baked .glb, an environment (.exr .hdr .png .jpg), LIGHT.json, or a state.\n"
+      "Files can also be dropped on the window.");
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##file", &file_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool pressed = ImGui::Button("Open");
+  ImGui::SameLine();
+  const bool cancelled = ImGui::Button("Cancel");
+  if ((entered || pressed) && !file_.empty()) session.open(file_);
+  if (entered || pressed || cancelled) {
+    session.desk.askForFile = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+void Panels::drawProblem(Session& session, float scale) {
+  const char* title = "That did not work";
+  const Error* problem = session.notices.current();
+  if (problem && !complaining_) ImGui::OpenPopup(title);
+  complaining_ = problem != nullptr;
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), 0, {0.5f, 0.5f});
+  const float widest = ImGui::GetMainViewport()->Size.x - 40 * scale;
+  ImGui::SetNextWindowSize({std::min(34 * ImGui::GetFontSize(), widest), 0});
+  if (!ImGui::BeginPopupModal(title, nullptr,
+                              ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+    return;
+  if (problem) {
+    ImGui::TextWrapped("%s", problem->message.c_str());
+    ImGui::Spacing();
+    ImGui::TextDisabled("What was shown stays as it is.");
+    ImGui::Spacing();
+    if (ImGui::Button("OK", {6 * ImGui::GetFontSize(), 0})) session.notices.putAway();
+    ImGui::SetItemDefaultFocus();
+  }
+  if (!session.notices.current()) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+}  // namespace lambent::viewer

@@ -1,0 +1,73 @@
+// What a person works on: a state, what stands on the stage for it, and the files it comes from.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/viewer/loader.h"
+#include "apps/viewer/notices.h"
+#include "apps/viewer/stage.h"
+#include "lambent/view/view_state.h"
+
+namespace lambent::viewer {
+
+/// What is switched on around the picture. Not part of a state.
+struct Desk {
+  bool panel = true, help = false, askForFile = false;
+  bool turnEnvironment = false, turnObject = false;
+  bool vsync = true;
+  int disc = -1;  ///< the one that is chosen, or −1
+  bool quit = false;
+};
+
+class Session {
+ public:
+  view::ViewState state;
+  Desk desk;
+  Stage stage;
+  Notices notices;
+  /// SOURCEs to switch between; the shown one is state.environment.
+  std::vector<std::string> environments;
+
+  /// All of these read in the background; what is shown stays until the file is there, and for good
+  /// if something is wrong with it.
+  void openAsset(const std::filesystem::path& path);
+  void openEnvironment(const std::string& source);
+  void openState(const std::filesystem::path& path);
+  /// Whatever it is: a baked .glb, an image, a LIGHT.json, a state.
+  void open(const std::filesystem::path& path);
+  void nextEnvironment(int step);
+
+  /// Shows what has been read since the last call. True if anything changed.
+  bool collect();
+  bool busy() const { return loader_.busy(); }
+  const Loader& loader() const { return loader_; }
+
+  /// The camera as the hand holds it; made of the file's or the automatic one at first touch.
+  view::LookAt& hand(const PixelSize& picture);
+  void frameAll(const PixelSize& picture);
+  void turnEnvironment(const Vec3d& axis, double radians);
+  /// About the middle of the object.
+  void turnObject(const Vec3d& axis, double radians);
+  /// Camera and object as the file has them.
+  void resetView();
+  /// Adds a lamp where the disc says, and chooses it.
+  void addDisc(const view::Disc& disc);
+  void removeDisc(int index);
+
+  /// A name that is not taken in the current folder: "bunny-001.png".
+  std::filesystem::path freeName(const std::string& extension) const;
+  void saveScreenshot(const std::filesystem::path& path, const PixelSize& size);
+  void saveState(const std::filesystem::path& path);
+
+ private:
+  void take(LoadedAsset loaded);
+  void take(LoadedEnvironment loaded);
+
+  Loader loader_;
+  std::optional<view::ViewState> waiting_;  ///< a state whose environment is being read
+};
+
+}  // namespace lambent::viewer

@@ -1,0 +1,184 @@
+#include "apps/viewer/stage.h"
+
+#include "lambent/radiometry/tone.h"
+#include "lambent/scene/camera.h"
+#include "lambent/shade/transfer_choice.h"
+#include "lambent/view/placement.h"
+
+namespace lambent::viewer {
+
+namespace {
+
+render::LiveOptions liveOptions(const view::ViewState& state) {
+  const shade::PictureOptions picture = view::pictureOptions(state, 1, 1);
+  render::LiveOptions options;
+  options.transfer = state.transfer;
+  options.lobeExponent = picture.lobeExponent;
+  options.biScale = picture.biScale;
+  return options;
+}
+
+bool sameOptions(const view::ViewState& a, const view::ViewState& b) {
+  return a.transfer == b.transfer && a.lobe == b.lobe && a.macro == b.macro &&
+         a.viewDependent == b.viewDependent;
+}
+
+/// Whether the pictures of two states are made of the same light: they may be developed otherwise.
+bool sameRadiance(view::ViewState a, const view::ViewState& b) {
+  a.exposure = b.exposure, a.tone = b.tone;
+  return a == b;
+}
+
+Possibilities possibilitiesOf(const asset::Asset& asset) {
+  using Choice = shade::TransferChoice;
+  Possibilities result;
+  result.unshadowed = shade::offers(asset, Choice::Unshadowed);
+  result.shadowed = shade::offers(asset, Choice::Shadowed);
+  result.interreflected = shade::offers(asset, Choice::Interreflected);
+  for (const encode::EncodedMesh& mesh : asset.transfer.meshes) {
+    result.mesoStructure = result.mesoStructure || mesh.biScale.has_value();
+    result.glossy = result.glossy || !mesh.matrices.empty();
+  }
+  return result;
+}
+
+render::LiveView liveView(const view::ViewState& state, const scene::Camera& camera, bool unlit) {
+  render::LiveView view;
+  view.camera = camera;
+  view.worldFromAsset = view::worldFromAsset(state);
+  view.worldFromEnvironment = view::worldFromEnvironment(state);
+  view.background = state.background;
+  view.unlit = unlit;
+  return view;
+}
+
+}  // namespace
+
+Status Stage::show(LoadedAsset loaded, const view::ViewState& state) {
+  auto renderer = render::LiveRenderer::make(*loaded.asset, liveOptions(state));
+  if (!renderer) return renderer.error();
+  if (surroundings_)
+    if (Status s = surroundings_->attach(*renderer, *loaded.asset); !s) return s;
+  renderer_.emplace(std::move(*renderer));
+  asset_.emplace(std::move(loaded));
+  possibilities_ = possibilitiesOf(*asset_->asset);
+  box_ = scene::bounds(asset_->asset->scene);
+  options_ = state;
+  backdrop_.reset();
+  size_ = {};
+  drawn_.reset();
+  const int bands = asset_->asset->transfer.bands;
+  if (!light_ || light_->bands() != bands) light_.emplace(environment_, bands);
+  return Status::ok();
+}
+
+void Stage::setEnvironment(const light::Environment& environment) {
+  environment_ = environment;
+  if (asset_) light_.emplace(environment_, asset_->asset->transfer.bands);
+  backdrop_.reset();
+  drawn_.reset();
+}
+
+Status Stage::setSurroundings(std::unique_ptr<Surroundings> surroundings) {
+  if (surroundings && renderer_)
+    if (Status s = surroundings->attach(*renderer_, *asset_->asset); !s) return s;
+  surroundings_ = std::move(surroundings);
+  drawn_.reset();
+  return Status::ok();
+}
+
+scene::Box Stage::bounds(const view::ViewState& state) const {
+  return view::movedBox(view::worldFromAsset(state), box_);
+}
+
+scene::Camera Stage::camera(const view::ViewState& state, const PixelSize& size) const {
+  const float aspect = float(size.width) / float(std::max(size.height, 1));
+  return asset_ ? view::worldCamera(state, asset_->asset->scene, aspect)
+                : view::worldCamera(state, {}, aspect);
+}
+
+/// What mirrors and the background show. Discs are parts of it that do not turn with the rest.
+Status Stage::hangBackdrop(const view::ViewState& state) {
+  light::Environment backdrop = environment_;
+  const Mat3 environmentFromWorld = view::worldFromEnvironment(state).transpose();
+  for (const view::Disc& disc : state.discs)
+    backdrop = backdrop + view::environmentOf(disc).rotated(environmentFromWorld);
+  if (Status s = renderer_->setEnvironment(backdrop); !s) return s;
+  backdrop_ = state;
+  return Status::ok();
+}
+
+Status Stage::prepare(const view::ViewState& state, const PixelSize& size, bool moving) {
+  if (!options_ || !sameOptions(*options_, state)) {
+    if (Status s = renderer_->choose(liveOptions(state)); !s) return s;
+    options_ = state;
+  }
+  if (size != size_) {
+    if (Status s = renderer_->resize(size.width, size.height); !s) return s;
+    size_ = size;
+  }
+  const bool stale =
+      !backdrop_ || backdrop_->discs != state.discs ||
+      (!state.discs.empty() && backdrop_->environmentRotation != state.environmentRotation);
+  // The renderer moves so many discs at no cost; more of them are an image to be made, for which
+  // it waits until the hand rests.
+  const bool cheap = state.discs.size() <= 16;
+  if (stale && (cheap || !moving || !backdrop_))
+    if (Status s = hangBackdrop(state); !s) return s;
+  if (!surroundings_) renderer_->setLight(light_->asset(state));
+  return Status::ok();
+}
+
+Status Stage::addSample(const view::ViewState& state, const PixelSize& size, const Vec2& place,
+                        int samples) {
+  render::LiveView view = liveView(state, camera(state, size), unlit);
+  if (surroundings_) view.others = surroundings_->bounds();
+  if (Status s = renderer_->add(view, place, samples); !s) return s;
+  return surroundings_ ? surroundings_->draw(*renderer_, view, size, place) : Status::ok();
+}
+
+Status Stage::draw(const view::ViewState& state, const PixelSize& size) {
+  bool moving = !drawn_ || drawn_->size != size || drawn_->unlit != unlit ||
+                !sameRadiance(drawn_->state, state);
+  if (surroundings_) {
+    const Result<bool> moved = surroundings_->advance(*renderer_, state, environment_);
+    if (!moved) return moved.error();
+    moving = moving || *moved;
+  }
+  drawn_ = Drawn{state, size, unlit};
+  if (moving) {
+    samples_ = 0;
+    settled_ = false;
+    if (Status s = prepare(state, size, true); !s) return s;
+    renderer_->begin();
+    return addSample(state, size, Vec2(0.5f, 0.5f), 1);
+  }
+  if (samples_ >= state.samples) {
+    settled_ = true;
+    return Status::ok();
+  }
+  if (samples_ == 0) {
+    if (Status s = prepare(state, size, false); !s) return s;
+    renderer_->begin();
+  }
+  const Vec2 place = scene::subpixelPositions(state.samples)[std::size_t(samples_++)];
+  settled_ = samples_ >= state.samples;
+  return addSample(state, size, place, state.samples);
+}
+
+Status Stage::present(unsigned framebuffer, const view::ViewState& state) const {
+  return renderer_->show(framebuffer, float(state.exposure), state.tone);
+}
+
+Result<image::Image> Stage::picture(const view::ViewState& state, const PixelSize& size) {
+  if (Status s = prepare(state, size, false); !s) return s.error();
+  renderer_->begin();
+  for (const Vec2& place : scene::subpixelPositions(state.samples))
+    if (Status s = addSample(state, size, place, state.samples); !s) return s.error();
+  auto linear = renderer_->picture();
+  drawn_.reset();  // of this size nothing is to be shown
+  if (!linear) return linear;
+  return radiometry::toneMap(std::move(*linear), float(state.exposure), state.tone);
+}
+
+}  // namespace lambent::viewer

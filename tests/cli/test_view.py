@@ -1,0 +1,330 @@
+"""The native viewer, run by scripts on a display without a screen."""
+
+import json
+import os
+import select
+import shutil
+import struct
+import subprocess
+import unittest
+import zlib
+
+from harness import BAD_INPUT, FAILED, USAGE, ToolTest, ball_obj, png
+
+
+def read_png(path):
+    """Width, height and the bytes of an 8-bit PNG as rows of RGB."""
+    data = path.read_bytes()
+    width, height, depth, kind = struct.unpack(">IIBB", data[16:26])
+    assert depth == 8 and kind in (2, 6), (depth, kind)
+    channels = 3 if kind == 2 else 4
+    packed, at = b"", 8
+    while at < len(data):
+        length, name = struct.unpack(">I4s", data[at:at + 8])
+        if name == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw = zlib.decompress(packed)
+    stride = width * channels
+    rows, before = [], bytes(stride)
+    for y in range(height):
+        kind, row = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left = row[i - channels] if i >= channels else 0
+            up, corner = before[i], before[i - channels] if i >= channels else 0
+            if kind == 1:
+                row[i] = (row[i] + left) & 255
+            elif kind == 2:
+                row[i] = (row[i] + up) & 255
+            elif kind == 3:
+                row[i] = (row[i] + (left + up) // 2) & 255
+            elif kind == 4:
+                p = left + up - corner
+                nearest = min((abs(p - left), 0, left), (abs(p - up), 1, up),
+                              (abs(p - corner), 2, corner))[2]
+                row[i] = (row[i] + nearest) & 255
+        rows.append(bytes(row[c] for i in range(0, stride, channels) for c in range(i, i + 3)))
+        before = row
+    return width, height, b"".join(rows)
+
+
+def mean_difference(a, b):
+    """In steps of 1/255."""
+    (wa, ha, left), (wb, hb, right) = read_png(a), read_png(b)
+    assert (wa, ha) == (wb, hb), (wa, ha, wb, hb)
+    return sum(abs(x - y) for x, y in zip(left, right)) / len(left)
+
+
+def start_display():
+    """Starts Xvfb on a number that it finds free; the process and the number."""
+    read, write = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-nolisten", "tcp"],
+        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write)
+    ready, _, _ = select.select([read], [], [], 60)
+    number = os.read(read, 16).decode().strip() if ready else ""
+    os.close(read)
+    assert number, "Xvfb did not start"
+    return server, number
+
+
+class View(ToolTest):
+    @classmethod
+    def setUpClass(cls):
+        assert shutil.which("Xvfb"), "Xvfb is missing: apt-get install xvfb"
+        cls.server, number = start_display()
+        cls.display = {**os.environ, "DISPLAY": ":" + number}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.terminate()
+        cls.server.wait()
+
+    def view(self, *args, code=0):
+        return self.run_tool("view", *args, code=code, env=self.display)
+
+    def script(self, text, *args, code=0):
+        return self.view(*args, "--script", self.write("script.txt", text), "--size", "560x320",
+                         code=code)
+
+    def sky(self):
+        return self.write("sky.png", png(64, 32, lambda x, y: (4 * x, 200 - 5 * y, 90 if x < 20
+                                                               else 20)))
+
+    def assert_as_rendered(self, asset, shot, state, *options):
+        """A screenshot is what `lambent render` makes of the saved state."""
+        width, height, _ = read_png(self.path(shot))
+        for backend in ("gl", "cpu"):
+            self.run_tool("render", asset, "--view", state, "-o", f"{backend}.png", "--size",
+                          f"{width}x{height}", "--backend", backend, "-q", *options)
+            self.assertLessEqual(
+                mean_difference(self.path(shot), self.path(f"{backend}.png")), 1.0, backend)
+
+    def test_screenshot_is_what_render_makes_of_the_state(self):
+        self.bake()
+        self.sky()
+        self.script("""
+            set panel off
+            save-state still.json
+            screenshot still.png
+            set exposure 0.7
+            set samples 4
+            set window hann:7
+            turn environment 1,2,-1 75
+            turn object 2,-1,1 50
+            move 0.1 -0.2 0.05
+            orbit 40 -15
+            zoom 0.8
+            pan 0.05 0.02
+            disc 60 40 30 4,3,2
+            wait 3
+            settle
+            save-state moved.json
+            screenshot moved.png
+            set background off
+            set tone linear
+            set transfer unshadowed
+            save-state plain.json
+            screenshot plain.png 200x150
+            """, "ball.glb", "sky.png")
+        for name in ("still", "moved", "plain"):
+            self.assert_as_rendered("ball.glb", name + ".png", name + ".json")
+        self.assertEqual(read_png(self.path("plain.png"))[:2], (200, 150))
+        self.assertGreater(mean_difference(self.path("still.png"), self.path("moved.png")), 5.0)
+
+    def test_glossy_and_mirror_turn_with_everything(self):
+        self.sky()
+        tour = """
+            set panel off
+            set samples 4
+            turn environment 1,2,-1 75
+            turn object 2,-1,1 50
+            disc 100 20 40 6
+            save-state {0}.json
+            screenshot {0}.png
+            """
+        for kind in ("glossy", "mirror"):
+            self.bake("ball.obj", kind + ".glb", "--material", kind, "--bands", 3)
+            self.script(tour.format(kind), kind + ".glb", "sky.png")
+            self.assert_as_rendered(kind + ".glb", kind + ".png", kind + ".json")
+
+    def test_animation_ends_where_its_frames_lead(self):
+        self.bake()
+        self.sky()
+        self.script("""
+            set panel off
+            set samples 1
+            animate environment on
+            animate object on
+            wait 20
+            animate environment off
+            animate object off
+            save-state turned.json
+            screenshot turned.png
+            """, "ball.glb", "sky.png")
+        state = json.loads(self.path("turned.json").read_text())
+        for part in ("object", "environment"):
+            # 20 degrees about +y: the sine of half of it.
+            self.assertAlmostEqual(abs(state[part]["rotation"][1]), 0.1736, 2, part)
+        self.assert_as_rendered("ball.glb", "turned.png", "turned.json")
+
+    def test_a_saved_state_comes_back(self):
+        self.bake()
+        self.sky()
+        self.script("""
+            set panel off
+            orbit 70 10
+            disc 10 80 25 3
+            set lobe 12
+            key M
+            save-state first.json
+            screenshot first.png
+            """, "ball.glb", "sky.png")
+        self.script("""
+            set panel off
+            save-state second.json
+            screenshot second.png
+            """, "ball.glb", "--view", "first.json")
+        self.assertEqual(self.path("first.json").read_text(), self.path("second.json").read_text())
+        self.assertEqual(mean_difference(self.path("first.png"), self.path("second.png")), 0.0)
+
+    def test_damaged_files_leave_what_is_shown(self):
+        asset = self.bake().read_bytes()
+        self.write("cut.glb", asset[:len(asset) // 2])
+        self.write("noise.exr", b"\x76\x2f\x31\x01" + bytes(range(200)))
+        self.write("wrong.json", '{"lambent": "view", "exposure": "bright"}')
+        self.write("lost.json", '{"lambent": "view", "environment": {"source": "gone.exr"}}')
+        self.write("notes.txt", "not a picture")
+        self.script("""
+            set panel off
+            screenshot before.png
+            drop cut.glb
+            screenshot-window box.png
+            expect-error cut.glb
+            drop noise.exr
+            expect-error noise.exr
+            drop wrong.json
+            expect-error "exposure"
+            drop lost.json
+            expect-error gone.exr
+            drop notes.txt
+            expect-error "the viewer shows baked assets"
+            drop ball.obj
+            expect-error "lambent bake ball.obj"
+            load missing.glb
+            expect-error missing.glb
+            screenshot after.png
+            """, "ball.glb")
+        self.assertEqual(mean_difference(self.path("before.png"), self.path("after.png")), 0.0)
+        # The message lies over the picture.
+        self.assertGreater(mean_difference(self.path("before.png"), self.path("box.png")), 2.0)
+
+    def test_keys_do_what_the_list_says(self):
+        self.bake()
+        self.sky()
+        self.script("""
+            key Tab
+            key F
+            key Shift+Left
+            key ctrl+up
+            key Left
+            key +
+            key ]
+            key T
+            key B
+            key 1
+            key W
+            key D
+            expect-discs 1
+            key Delete
+            expect-discs 0
+            key E
+            wait 30
+            key ?
+            screenshot-window help.png
+            key Escape
+            save-state state.json
+            key S
+            """, "ball.glb", "sky.png", "uniform:2")
+        state = json.loads(self.path("state.json").read_text())
+        self.assertEqual(state["environment"]["source"], "uniform:2")
+        self.assertAlmostEqual(state["environment"]["rotation"][1], 0.0872, 3)
+        self.assertAlmostEqual(state["exposure"], 1 / 3, 6)
+        self.assertEqual([state["tone"], state["background"], state["transfer"], state["window"]],
+                         ["linear", False, "unshadowed", "hann"])
+        self.assertIsNotNone(state["camera"])
+        self.assertTrue(self.path("ball-001.png").exists())
+        self.assertEqual(read_png(self.path("help.png"))[:2], (560, 320))
+
+    def test_screenshot_option(self):
+        self.bake()
+        self.view("ball.glb", "uniform", "--screenshot", "shot.png", "--size", "300x200")
+        self.assertEqual(read_png(self.path("shot.png"))[:2], (300, 200))
+        self.run_tool("render", "ball.glb", "--light", "uniform", "--exposure", "0", "--background",
+                      "--size", "300x200", "-o", "render.png", "-q")
+        self.assertLessEqual(mean_difference(self.path("shot.png"), self.path("render.png")), 1.0)
+
+    def test_scripts_say_where_they_are_wrong(self):
+        self.bake()
+        for text, code, says in (
+                ("\n  jump 3", BAD_INPUT, "script.txt:2: 'jump' is not a command"),
+                ("orbit 3", BAD_INPUT, "script.txt:1: write it as: orbit"),
+                ("repeat 3\nwait 1", BAD_INPUT, "script.txt:1: this 'repeat' has no 'end'"),
+                ("end", BAD_INPUT, "script.txt:1: this 'end' has no 'repeat'"),
+                ('load "ball.glb', BAD_INPUT, "script.txt:1: a quotation mark is left open"),
+                ("wait 1\norbit a 1", BAD_INPUT, "script.txt:2: 'a' is not a number"),
+                ("set brightness 1", BAD_INPUT, "script.txt:1: 'brightness' cannot be set"),
+                ("key Shift+Z", BAD_INPUT, "script.txt:1: no key 'Shift+Z'"),
+                ("load gone.glb\nwait 2", BAD_INPUT, "script.txt:2: "),
+                ("wait 1\nexpect-error boo", FAILED, "script.txt:2: there was no error"),
+                ("expect-discs 2", FAILED, "script.txt:1: there are 0 discs")):
+            with self.subTest(text):
+                self.assertIn(says, self.script(text, "ball.glb", code=code).stderr)
+
+    def test_files_of_the_command_line_are_answered_for(self):
+        self.bake()
+        self.assertIn("gone.glb", self.view("gone.glb", "--hidden", code=BAD_INPUT).stderr)
+        self.assertIn("gone.exr", self.view("ball.glb", "gone.exr", "--hidden",
+                                            code=BAD_INPUT).stderr)
+        self.assertIn("gone.json", self.view("ball.glb", "--view", "gone.json", "--hidden",
+                                             code=BAD_INPUT).stderr)
+        self.assertIn("Bake it first: lambent bake ball.obj",
+                      self.view("ball.obj", "--hidden", code=BAD_INPUT).stderr)
+        self.view("ball.glb", "--port", 80, code=USAGE)
+        self.view("ball.glb", "--web", "--script", "x", code=USAGE)
+
+    def test_without_a_display(self):
+        self.bake()
+        bare = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        result = self.run_tool("view", "ball.glb", code=FAILED, env=bare)
+        self.assertIn("no display", result.stderr)
+        self.assertIn("xvfb-run", result.stderr)
+        self.assertIn("--web", result.stderr)
+
+    def test_loads_and_drops_leave_nothing(self):
+        """The soak in small: tests/soak/native.py is the long one."""
+        self.bake()
+        self.write("other.obj", ball_obj(24, 12))
+        self.bake("other.obj", "other.glb", "--material", "glossy", "--bands", 3)
+        lines = self.script("""
+            load other.glb
+            wait 5
+            load ball.glb
+            wait 5
+            report
+            repeat 8
+              load other.glb
+              wait 2
+              load ball.glb
+              wait 5
+            end
+            report
+            """, "ball.glb").stdout.splitlines()
+        first, last = (json.loads(line) for line in lines)
+        self.assertEqual(first["gl_objects"], last["gl_objects"])
+        self.assertGreater(first["gl_objects"]["buffers"], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
