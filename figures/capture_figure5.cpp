@@ -44,10 +44,10 @@ Stage stage(const Studio& studio) {
   Stage result{bake(bunny, options).asset,
                {},
                light::Environment::uniform(Rgb::Constant(0.1f)),
-               lookAt(box.center() + r * Vec3(0.15f, 0.25f, 2.9f), box.center(), 43)};
+               lookAt(box.center() + r * Vec3(0.15f, 0.25f, 2.9f), box.center(), 38)};
   result.lamps.bodies = {
-      lamp("warm", box.center() + r * Vec3(-0.9f, 0.4f, 0.35f), 0.13f * r, Rgb(48, 20, 5)),
-      lamp("cool", box.center() + r * Vec3(0.95f, -0.1f, 0.35f), 0.13f * r, Rgb(5, 18, 46))};
+      lamp("warm", box.center() + r * Vec3(-0.95f, 0.4f, 0.5f), 0.13f * r, Rgb(48, 20, 5)),
+      lamp("cool", box.center() + r * Vec3(0.95f, -0.1f, 0.55f), 0.13f * r, Rgb(5, 18, 46))};
   return result;
 }
 
@@ -96,9 +96,9 @@ image::Image show(const Studio& studio, const Stage& stage, const std::vector<Rg
     const scene::Mesh mesh = scene::transformed(body.mesh, capture::worldFromBody(body.motion, 0));
     add(mesh, std::vector<Rgb>(mesh.positions.size(), body.radiance));
   }
-  const int pixels = studio.pixels(440);
+  const int height = studio.pixels(400), width = height * 7 / 5;
   return photograph(asset, light::Environment::uniform(Rgb::Ones()).project(1), {}, stage.camera,
-                    pixels, pixels);
+                    width, height);
 }
 
 /// Light of each sample in a colour of its own, and the samples as balls.
@@ -211,9 +211,9 @@ void captureFigure5(const Studio& studio) {
     if (count == 8) samples = develop(showSamples(studio, set, blending), 0);
   }
   fmt::print("| every vertex | {:.1f}% | |\n", 100 * relative(local, expected, noise));
-  const int pixels = studio.pixels(440);
+  const int height = studio.pixels(400), width = height * 7 / 5;
   sheet.rows[0].push_back(develop(
-      pathTrace(withLamps(set), set.sky, set.camera, pixels, pixels, studio.paths(400), 0), 0));
+      pathTrace(withLamps(set), set.sky, set.camera, width, height, studio.paths(400), 0), 0));
   sheet.rows[0].push_back(samples);
   studio.save(compose(sheet), "capture-figure5");
 }

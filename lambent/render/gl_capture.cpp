@@ -9,8 +9,8 @@
 //   light, keep an error of projection. Drawn is the difference that bodies make: their radiance
 //   less the environment's in their direction, evaluated per texel, which is exact for band-limited
 //   light.
-// - All faces are tiles of one picture, and a body is drawn into all of them by one call with an
-//   instance for each: no layered target, which would need a geometry shader or an extension.
+// - All faces are tiles of one picture, and a body is drawn into those that see it by one call with
+//   an instance for each: no layered target, which would need a geometry shader or an extension.
 #include "lambent/render/gl_capture.h"
 
 #include <algorithm>
@@ -103,7 +103,7 @@ struct LightCapture::Impl {
   GlBodies bodies;
   std::vector<Vec3> points;
   int tilesAcross = 0, tilesUp = 0;
-  Buffer pointBuffer, weights, environment, light;
+  Buffer pointBuffer, seen, weights, environment, light;
   Texture color, depth;
   Framebuffer framebuffer;
   Program reduce, view;
@@ -111,6 +111,7 @@ struct LightCapture::Impl {
 
   Status makeTarget();
   Result<const Program*> facesProgram(int environmentBands);
+  void appendTilesThatSee(const Vec3& center, float radius, std::vector<std::int32_t>& tiles) const;
   void drawFaces(const Program& program, double time, const Mat4& assetFromWorld) const;
   void project(int environmentBands) const;
 };
@@ -151,12 +152,10 @@ Result<LightCapture> LightCapture::make(const capture::MovingScene& scene,
   impl->pointBuffer = makeBuffer(padded);
   const std::vector<double> weights = capture::cubeWeights(options.cube, options.bands);
   impl->weights = makeBuffer(std::vector<float>(weights.begin(), weights.end()));
-  GLuint name = 0;
-  glCreateBuffers(1, &name);
-  impl->environment = Buffer(name);
-  const int most = 3 * sh::coefficientCount(sh::kMaxBands);
-  glNamedBufferStorage(name, GLsizeiptr(std::size_t(most) * sizeof(float)), nullptr,
-                       GL_DYNAMIC_STORAGE_BIT);
+  impl->seen = makeChangingBuffer(std::max<std::size_t>(impl->bodies.all().size(), 1) * 6 *
+                                  points.size() * sizeof(std::int32_t));
+  impl->environment =
+      makeChangingBuffer(3 * std::size_t(sh::coefficientCount(sh::kMaxBands)) * sizeof(float));
   impl->light = makeBuffer(points.size() * 3 * std::size_t(sh::coefficientCount(options.bands)) *
                            sizeof(float));
   if (Status s = checkGl("making the buffers of captured light"); !s) return s.error();
@@ -209,15 +208,41 @@ Result<const Program*> LightCapture::Impl::facesProgram(int environmentBands) {
   return &found->second;
 }
 
+/// The faces, as tiles, whose pyramid a ball reaches into.
+void LightCapture::Impl::appendTilesThatSee(const Vec3& center, float radius,
+                                            std::vector<std::int32_t>& tiles) const {
+  const float margin = std::sqrt(2.0f) * radius;  // planes at 45°: d ± x = −√2 r touches the ball
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const Vec3d way = (center - points[p]).cast<double>();
+    for (std::size_t f = 0; f < 6; ++f) {
+      const capture::CubeFace& face = capture::cubeFaces()[f];
+      const double outside = std::max(std::abs(face.right.dot(way)), std::abs(face.up.dot(way))) -
+                             face.forward.dot(way);
+      if (outside <= double(margin)) tiles.push_back(std::int32_t(6 * p + f));
+    }
+  }
+}
+
 void LightCapture::Impl::drawFaces(const Program& program, double time,
                                    const Mat4& assetFromWorld) const {
-  std::vector<Mat4> places;
+  struct Placed {
+    const GlBodies::Body* body;
+    Mat4 assetFromBody;
+    int firstSeen, endSeen;
+  };
+  std::vector<Placed> placed;
+  std::vector<std::int32_t> tiles;
   float reach = 0;
   for (const GlBodies::Body& body : bodies.all()) {
-    places.push_back(assetFromWorld * capture::worldFromBody(body.motion, time));
-    const Vec3 center = moved(places.back(), body.center);
+    const Mat4 assetFromBody = assetFromWorld * capture::worldFromBody(body.motion, time);
+    const Vec3 center = moved(assetFromBody, body.center);
+    const int first = int(tiles.size());
+    appendTilesThatSee(center, body.radius, tiles);
+    placed.push_back({&body, assetFromBody, first, int(tiles.size())});
     for (const Vec3& point : points) reach = std::max(reach, (center - point).norm() + body.radius);
   }
+  if (tiles.empty()) return;
+  glNamedBufferSubData(seen.name(), 0, GLsizeiptr(tiles.size() * sizeof(tiles[0])), tiles.data());
   for (int i = 0; i < 4; ++i) glEnable(GLenum(GL_CLIP_DISTANCE0 + i));
   glDepthFunc(GL_LESS);
   glFrontFace(GL_CCW);
@@ -225,17 +250,16 @@ void LightCapture::Impl::drawFaces(const Program& program, double time,
   program.set("tiles", tilesAcross, tilesUp);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, pointBuffer.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, environment.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, seen.name());
   bodies.bind();
-  const int all = 6 * int(points.size());
-  const int atOnce = options.facesAtOnce > 0 ? options.facesAtOnce : all;
-  for (std::size_t b = 0; b < places.size(); ++b) {
-    const GlBodies::Body& body = bodies.all()[b];
-    program.setMatrix("assetFromBody", places[b].data());
-    program.set("radianceReach", body.radiance.x(), body.radiance.y(), body.radiance.z(),
-                1.01f * reach);
-    for (int first = 0; first < all; first += atOnce) {
-      program.set("firstTile", first);
-      bodies.draw(body, std::min(atOnce, all - first));
+  for (const Placed& each : placed) {
+    const Rgb& radiance = each.body->radiance;
+    program.setMatrix("assetFromBody", each.assetFromBody.data());
+    program.set("radianceReach", radiance.x(), radiance.y(), radiance.z(), 1.01f * reach);
+    const int atOnce = options.facesAtOnce > 0 ? options.facesAtOnce : int(tiles.size());
+    for (int first = each.firstSeen; first < each.endSeen; first += atOnce) {
+      program.set("firstSeen", first);
+      bodies.draw(*each.body, std::min(atOnce, each.endSeen - first));
     }
   }
 }

@@ -16,7 +16,7 @@ namespace lambent::render {
 struct CaptureOptions {
   capture::CubeSize cube;  ///< 6×16×16, supersampled 2×2
   int bands = 5;           ///< of the captured light, 1 … 10
-  /// Faces that one draw call renders; 0: those of all samples at once. To measure with.
+  /// Faces that one draw call renders at most; 0: those of all samples at once. To measure with.
   int facesAtOnce = 0;
 };
 
