@@ -67,11 +67,7 @@ std::vector<Action> makeActions() {
   const auto expose = [](double step) { return [step](S s, P) { s.state.exposure += step; }; };
   return {
       {"F", {GLFW_KEY_F, 0}, view, "frame the whole object", [](S s, P p) { s.frameAll(p); }},
-      {"R",
-       {GLFW_KEY_R, 0},
-       view,
-       "camera and object as the file has them",
-       [](S s, P) { s.resetView(); }},
+      {"R", {GLFW_KEY_R, 0}, view, "as the file has it", [](S s, P) { s.resetView(); }},
       {"Left",
        {GLFW_KEY_LEFT, 0},
        view,
@@ -82,11 +78,7 @@ std::vector<Action> makeActions() {
       {"Down", {GLFW_KEY_DOWN, 0}, view, "… downwards", [](S s, P p) { orbit(s, p, 0, -1); }},
       {"+", {GLFW_KEY_EQUAL, 0}, view, "nearer", [](S s, P p) { zoom(s, p, 0.87); }},
       {"-", {GLFW_KEY_MINUS, 0}, view, "farther", [](S s, P p) { zoom(s, p, 1 / 0.87); }},
-      {"B",
-       {GLFW_KEY_B, 0},
-       view,
-       "the environment behind the object",
-       toggle(&view::ViewState::background)},
+      {"B", {GLFW_KEY_B, 0}, view, "background on and off", toggle(&view::ViewState::background)},
 
       {"E", {GLFW_KEY_E, 0}, light, "next environment", [](S s, P) { s.nextEnvironment(1); }},
       {"Shift+E",
@@ -122,7 +114,7 @@ std::vector<Action> makeActions() {
       {"D",
        {GLFW_KEY_D, 0},
        light,
-       "a disc of light from where the camera is",
+       "a disc of light at the camera",
        [](S s, P p) {
          view::Disc disc;
          view::aim(disc, s.stage.camera(s.state, p).worldFromCamera.block<3, 1>(0, 2));
@@ -190,12 +182,12 @@ std::vector<Action> makeActions() {
       {"M",
        {GLFW_KEY_M, 0},
        shown,
-       "macro-scale of meso-structure on and off",
+       "macro-scale (meso-structure)",
        toggle(&view::ViewState::macro)},
       {"V",
        {GLFW_KEY_V, 0},
        shown,
-       "view dependence of meso-structure on and off",
+       "view dependence (meso-structure)",
        toggle(&view::ViewState::viewDependent)},
       {"U",
        {GLFW_KEY_U, 0},
@@ -213,11 +205,7 @@ std::vector<Action> makeActions() {
          s.state.tone = s.state.tone == Tone::Filmic ? Tone::Linear : Tone::Filmic;
        }},
 
-      {"O",
-       {GLFW_KEY_O, 0},
-       files,
-       "open a file (or drop one on the window)",
-       [](S s, P) { s.desk.askForFile = true; }},
+      {"O", {GLFW_KEY_O, 0}, files, "open a file", [](S s, P) { s.desk.askForFile = true; }},
       {"S",
        {GLFW_KEY_S, 0},
        files,
@@ -241,7 +229,7 @@ std::vector<Action> makeActions() {
       {"Escape",
        {GLFW_KEY_ESCAPE, 0},
        files,
-       "close what lies over the picture",
+       "close what lies over it",
        [](S s, P) {
          s.desk.help = s.desk.askForFile = false;
          s.notices.putAway();

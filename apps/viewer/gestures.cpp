@@ -98,8 +98,8 @@ void followMouse(Session& session, const Layout& layout) {
 std::span<const std::pair<const char*, const char*>> gestureHelp() {
   static constexpr std::array<std::pair<const char*, const char*>, 7> kHelp = {{
       {"Drag", "walk around the object"},
-      {"Right or middle drag", "move the view"},
-      {"Wheel", "nearer and farther, towards the pointer"},
+      {"Right drag", "move the view"},
+      {"Wheel", "zoom towards the pointer"},
       {"Double click", "frame the whole object"},
       {"Shift + drag", "turn the environment"},
       {"Ctrl + drag", "turn the object"},

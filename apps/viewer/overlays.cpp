@@ -21,7 +21,9 @@ void helpRow(const char* keys, const char* text) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(keys);
   ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", text);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", text);
+  ImGui::PopStyleColor();
 }
 
 void helpTitle(std::string_view title) {
@@ -37,8 +39,8 @@ void helpTitle(std::string_view title) {
 void drawHelp(Session& session, const Layout& layout) {
   const PixelSize& window = layout.window;
   const float scale = layout.scale;
-  const ImVec2 size(std::min(760.0f * scale, float(window.width) - 24 * scale),
-                    std::min(640.0f * scale, float(window.height) - 24 * scale));
+  const ImVec2 size(std::min(880.0f * scale, float(window.width) - 24 * scale),
+                    std::min(660.0f * scale, float(window.height) - 24 * scale));
   ImGui::SetNextWindowSize(size);
   ImGui::SetNextWindowPos({0.5f * float(window.width), 0.5f * float(window.height)}, 0,
                           {0.5f, 0.5f});
@@ -52,7 +54,9 @@ void drawHelp(Session& session, const Layout& layout) {
     std::size_t next = 0;
     const float width = wide ? 0.5f * ImGui::GetContentRegionAvail().x : 0.0f;
     const auto column = [&](const char* id, bool mouse, std::size_t last) {
-      if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit, {width, 0})) return;
+      if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_None, {width, 0})) return;
+      ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
+      ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
       if (mouse) {
         helpTitle("Mouse");
         for (const auto& [how, what] : gestureHelp()) helpRow(how, what);

@@ -55,9 +55,9 @@ void Panels::draw(Session& session, const FrameTimes& times, const Layout& layou
                        ImGui::GetStyle().ItemSpacing.y;
     ImGui::BeginChild("controls", {0, -foot});
     drawFiles(session, layout.picture);
+    if (section("Picture")) drawPicture(session);
     if (section("Light")) drawLight(session);
     if (section("Transfer")) drawAsset(session);
-    if (section("Picture")) drawPicture(session);
     ImGui::EndChild();
     drawTimes(session, times);
     ImGui::End();

@@ -61,8 +61,11 @@ double Viewer::rest() {
   } else {
     // Files that are being read and remarks that fade want a look now and then.
     const bool watching = session.busy() || !session.notices.remarks().empty();
-    window.wait(watching ? 0.05 : 0.5);
-    lively = kLively;
+    const double longest = watching ? 0.05 : 0.5;
+    const auto asleep = std::chrono::steady_clock::now();
+    window.wait(longest);
+    const std::chrono::duration<double> slept = std::chrono::steady_clock::now() - asleep;
+    if (slept.count() < 0.9 * longest) lively = kLively;  // something woke us
   }
   const auto now = std::chrono::steady_clock::now();
   const double seconds = std::chrono::duration<double>(now - before).count();

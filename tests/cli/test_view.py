@@ -2,13 +2,11 @@
 
 import json
 import os
-import select
-import shutil
 import struct
-import subprocess
 import unittest
 import zlib
 
+from display import start_display
 from harness import BAD_INPUT, FAILED, USAGE, ToolTest, ball_obj, png
 
 
@@ -55,24 +53,9 @@ def mean_difference(a, b):
     return sum(abs(x - y) for x, y in zip(left, right)) / len(left)
 
 
-def start_display():
-    """Starts Xvfb on a number that it finds free; the process and the number."""
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-nolisten", "tcp"],
-        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(write)
-    ready, _, _ = select.select([read], [], [], 60)
-    number = os.read(read, 16).decode().strip() if ready else ""
-    os.close(read)
-    assert number, "Xvfb did not start"
-    return server, number
-
-
 class View(ToolTest):
     @classmethod
     def setUpClass(cls):
-        assert shutil.which("Xvfb"), "Xvfb is missing: apt-get install xvfb"
         cls.server, number = start_display()
         cls.display = {**os.environ, "DISPLAY": ":" + number}
 

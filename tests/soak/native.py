@@ -12,7 +12,6 @@ middle of the run to its end. Prints what it measured and exits with 1 where it 
 import argparse
 import json
 import os
-import select
 import statistics
 import subprocess
 import sys
@@ -21,6 +20,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
+from display import start_display  # noqa: E402: found in the folder named above
 
 ALLOWED_GROWTH = 8 << 20  # bytes, of pages that the allocator keeps for later
 
@@ -45,20 +45,6 @@ def make_assets(tool: str, folder: Path) -> list:
     run("rtt", "stucco", "-o", "patch.rtt", "--positions", "16x16", "--views", 4, "--directions", 64)
     run("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "meso.glb", *few)
     return ["diffuse.glb", "glossy.glb", "mirror.glb", "texels.glb", "meso.glb"]
-
-
-def start_display():
-    read, write = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x800x24", "-nolisten", "tcp"],
-        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(write)
-    ready, _, _ = select.select([read], [], [], 60)
-    number = os.read(read, 16).decode().strip() if ready else ""
-    os.close(read)
-    if not number:
-        sys.exit("Xvfb did not start: apt-get install xvfb")
-    return server, number
 
 
 def script(assets: list) -> str:
@@ -87,7 +73,7 @@ def main() -> int:
         assets = make_assets(tool, folder)
         whole = (folder / assets[0]).read_bytes()
         (folder / "damaged.glb").write_bytes(whole[:len(whole) // 3])
-        server, number = start_display()
+        server, number = start_display("1000x800")
         try:
             return soak(tool, folder, assets, number, arguments)
         finally:
