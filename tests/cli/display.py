@@ -17,9 +17,15 @@ def start_display(size="1400x1000"):
              "-noreset"],
             pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
-        ready, _, _ = select.select([read], [], [], 60)
-        number = os.read(read, 16).decode().strip() if ready else ""
+        # To the end of the line: the server dies if it cannot finish writing it.
+        said = b""
+        while not said.endswith(b"\n") and select.select([read], [], [], 60)[0]:
+            more = os.read(read, 16)
+            if not more:
+                break
+            said += more
         os.close(read)
+        number = said.decode().strip()
         if number and _answers(number) and server.poll() is None:
             return server, number
         server.kill()

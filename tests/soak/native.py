@@ -111,6 +111,7 @@ def soak(tool, folder, assets, display, arguments) -> int:
           f"{(time.monotonic() - began) / 60:.1f} minutes, frames of {frames:.2f} ms")
     print(f"resident memory: {memory[0] / 2**20:.1f} MiB after the first round, "
           f"{middle / 2**20:.1f} in the middle, {end / 2**20:.1f} at the end")
+    print("round after round, MiB:", " ".join(f"{m / 2**20:.0f}" for m in memory))
     problems = []
     for i, asset in enumerate(assets):
         first, last = rounds[1][i]["gl_objects"], rounds[-1][i]["gl_objects"]
