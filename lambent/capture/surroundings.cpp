@@ -20,9 +20,9 @@ MovingScene demoSurroundings(const scene::Box& object) {
   };
   // A lamp of radius r at distance D lights a surface that faces it with π (r/D)² of its radiance.
   const Lamp lamps[] = {
-      {"warm lamp", Rgb(48, 22, 7), 1.65f, 0.35f, 9, 0.0},
-      {"cool lamp", Rgb(6, 18, 44), 1.75f, -0.1f, -13, 0.45},
-      {"green lamp", Rgb(8, 30, 10), 1.9f, 0.9f, 21, 0.7},
+      {"warm lamp", Rgb(34, 9, 0.8f), 1.5f, 0.3f, 9, 0.0},
+      {"cool lamp", Rgb(0.8f, 9, 34), 1.6f, -0.05f, -13, 0.45},
+      {"violet lamp", Rgb(16, 0.8f, 22), 1.75f, 0.85f, 21, 0.7},
   };
   MovingScene scene;
   for (const Lamp& lamp : lamps) {
@@ -36,9 +36,9 @@ MovingScene demoSurroundings(const scene::Box& object) {
   }
   Body bar;
   bar.name = "bar";
-  bar.mesh = scene::box(reach * Vec3(0.35f, 2.6f, 0.08f));
+  bar.mesh = scene::box(reach * Vec3(0.25f, 2.0f, 0.08f));
   bar.radiance = Rgb::Constant(0.02f);
-  bar.motion.place = center + Vec3(0, 0, 1.25f * reach);
+  bar.motion.place = center - Vec3(0, 0, 1.15f * reach);  // behind, as most views have it
   bar.motion.swing = {Vec3(1.4f * reach, 0, 0), 7, 0};
   scene.bodies.push_back(std::move(bar));
   return scene;

@@ -1,6 +1,7 @@
 // Captured light on the GPU against the same by rays, and against closed forms.
 #include "lambent/render/gl_capture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -80,8 +81,9 @@ const std::vector<Vec3> kPoints = {{0, 0, 0},           {0.4f, 0.1f, -0.2f}, {-0
                                    {0, 0.7f, 0}};
 
 // Every face, odd and even numbers of cubes, other sizes of maps, other bands; the environment's
-// bands more and fewer than the capture's. A texel whose middle an edge all but meets may fall to
-// either side.
+// bands more and fewer than the capture's. GL moves vertices to the nearest 1/256 of a texel, so
+// that a texel whose middle an edge all but meets may fall to the other side: most samples have
+// none such and are equal to rounding, and none is far off.
 TEST_F(GlCapture, EqualsTheSameByRays) {
   const MovingScene scene = capture::demoSurroundings({Vec3(-1, -1, -1), Vec3(1, 1, 1)});
   const auto sky = light::Environment::disc(Vec3(0.3f, 1, 0.2f).normalized(), 0.8, Rgb(5, 4, 3));
@@ -95,13 +97,19 @@ TEST_F(GlCapture, EqualsTheSameByRays) {
                         Case{{5, 3}, 10, 2, 6}}) {
     const std::vector<Vec3> points(kPoints.begin(), kPoints.begin() + std::ptrdiff_t(c.points));
     LightCapture onGpu = make(scene, points, {c.cube, c.bands, 0});
+    std::vector<double> errors;
     const auto light = c.skyBands > 0 ? sky.project(c.skyBands) : sh::RgbCoefficients();
     for (const double time : {0.0, 3.7}) {
       const auto gl = capture(onGpu, time, moved, light);
       const auto rays = capture::captureByRays(scene, time, light, moved, points, c.bands, c.cube);
-      EXPECT_LT(relativeError(gl, rays), 2e-3)
-          << c.cube.size << "², " << c.bands << " bands, time " << time;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        errors.push_back(relativeError({gl[k]}, {rays[k]}));
+        EXPECT_LT(errors.back(), 0.1)
+            << c.cube.size << "², " << c.bands << " bands, time " << time << ", sample " << k;
+      }
     }
+    std::sort(errors.begin(), errors.end());
+    EXPECT_LT(errors[errors.size() / 2], 1e-6) << c.cube.size << "², " << c.bands << " bands";
   }
 }
 
