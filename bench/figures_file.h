@@ -37,12 +37,16 @@ inline void note(const std::string& name, double value, const std::string& unit,
   std::fflush(stdout);
 }
 
-inline void writeFigures(const std::filesystem::path& csv) {
+/// `device`: where it was measured, as a column of its own; empty: none.
+inline void writeFigures(const std::filesystem::path& csv, const std::string& device = "") {
   if (csv.empty()) return;
   std::ofstream file(csv);
-  file << "name,value,unit,wanted\n";
-  for (const Figure& f : figures())
-    file << fmt::format("\"{}\",{:.6g},{},{}\n", f.name, f.value, f.unit, f.wanted);
+  file << "name,value,unit,wanted" << (device.empty() ? "" : ",device") << "\n";
+  for (const Figure& f : figures()) {
+    file << fmt::format("\"{}\",{:.6g},{},{}", f.name, f.value, f.unit, f.wanted);
+    if (!device.empty()) file << fmt::format(",\"{}\"", device);
+    file << "\n";
+  }
 }
 
 /// Times several jobs alternately, so that they share the machine's moods; the best of each.

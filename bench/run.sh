@@ -18,7 +18,7 @@ for program in "$build"/bench/lambent_*_bench; do
   name=${name#lambent_}
   if [[ -n $filter && $name != *"$filter"* ]]; then continue; fi
   printf '\n== %s\n' "$name"
-  if [ "$name" = bake_bench ] || [ "$name" = bi_scale_bench ]; then
+  if [ "$name" = bake_bench ] || [ "$name" = bi_scale_bench ] || [ "$name" = live_bench ]; then
     "$program" "$results/$name.csv" build/inputs
   elif [ "$name" = capture_bench ]; then
     "$program" "$results/$name.csv"

@@ -1,5 +1,9 @@
-// Vertices are pulled from buffers: glDrawArrays of three vertices a triangle, no attributes. The
-// fragment shader gets the three vertices' numbers and its place among them.
+// A relit surface: vertices are pulled from buffers by their index. With transfer at the vertices,
+// the rasteriser interpolates what came of the light there: exit radiance, and the convolved lobe.
+//
+// Before this text stand: #define LAMBENT_KIND, LAMBENT_LOBE_GROUPS (the lobe's numbers in groups of
+// four, 0: not glossy), LAMBENT_INTERPOLATED 1, or 0 where the rasteriser does not take as many, and
+// LAMBENT_EACH_GROUP(DO), which is DO(0) DO(1) … for all of them.
 
 struct Vertex {
   vec4 positionU;  // world position, texture coordinate u
@@ -8,23 +12,34 @@ struct Vertex {
 };
 
 layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
-layout(std430, binding = 1) readonly buffer Corners { uint corners[]; };
+layout(std430, binding = 2) readonly buffer Diffuse { float diffuse[]; };  // [receiver][3]
+layout(std430, binding = 3) readonly buffer Lobe { vec4 lobe[]; };  // [receiver][LAMBENT_LOBE_GROUPS]
 
 uniform mat4 clipFromWorld;
+uniform bool hasDiffuse;
 
-out vec3 barycentric;
-flat out uvec3 triangle;
-flat out vec3 geometricNormal;
+out vec3 position;
+out vec4 normalU;
+out vec4 colorV;
+#if LAMBENT_KIND == 0
+out vec3 exitRadiance;
+#if LAMBENT_INTERPOLATED
+out vec4 lobes[LAMBENT_LOBE_GROUPS];
+#endif
+#endif
 
 void main() {
-  uint corner = uint(gl_VertexID) % 3u;
-  uint begin = uint(gl_VertexID) - corner;
-  triangle = uvec3(corners[begin], corners[begin + 1u], corners[begin + 2u]);
-  vec3 a = vertices[triangle.x].positionU.xyz;
-  vec3 b = vertices[triangle.y].positionU.xyz;
-  vec3 c = vertices[triangle.z].positionU.xyz;
-  geometricNormal = cross(b - a, c - a);
-  barycentric = vec3(corner == 0u, corner == 1u, corner == 2u);
-  vec3 position = corner == 0u ? a : corner == 1u ? b : c;
+  Vertex vertex = vertices[gl_VertexID];
+  position = vertex.positionU.xyz;
+  normalU = vec4(vertex.normalV.xyz, vertex.positionU.w);
+  colorV = vec4(vertex.color.rgb, vertex.normalV.w);
+#if LAMBENT_KIND == 0
+  int at = 3 * gl_VertexID;
+  exitRadiance = hasDiffuse ? vec3(diffuse[at], diffuse[at + 1], diffuse[at + 2]) : vec3(0.0);
+#if LAMBENT_INTERPOLATED
+#define COPY(i) lobes[i] = lobe[gl_VertexID * LAMBENT_LOBE_GROUPS + i];
+  LAMBENT_EACH_GROUP(COPY)
+#endif
+#endif
   gl_Position = clipFromWorld * vec4(position, 1.0);
 }

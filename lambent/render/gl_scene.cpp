@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "lambent/radiometry/tone.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/shade/macro_transport.h"
+#include "lambent/shade/rtt_pyramid.h"
 
 namespace lambent::render {
 namespace {
 
 using transport::Layout;
-
-// As in surface.frag.glsl.
-enum class SurfaceKind { Vertices = 0, Texels = 1, Mirror = 2, Black = 3 };
 
 struct GpuVertex {
   float position[3], u;
@@ -39,6 +39,20 @@ std::vector<GpuVertex> gatherVertices(const scene::Mesh& mesh, const TriangleBat
     to.unused = 0.0f;
   }
   return vertices;
+}
+
+/// Of the batch's triangles by their windings, not unit: four floats each.
+std::vector<float> gatherNormals(const scene::Mesh& mesh, const TriangleBatch& batch) {
+  std::vector<float> normals;
+  normals.reserve(batch.corners.size() / 3 * 4);
+  for (std::size_t i = 0; i < batch.corners.size(); i += 3) {
+    const auto corner = [&](std::size_t k) -> const Vec3& {
+      return mesh.positions[batch.vertices[batch.corners[i + k]]];
+    };
+    const Vec3 n = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    normals.insert(normals.end(), {n.x(), n.y(), n.z(), 0.0f});
+  }
+  return normals;
 }
 
 int wrapRule(scene::Wrap wrap) {
@@ -68,6 +82,7 @@ int GlScene::textureOf(std::uint32_t mesh) const {
 
 int GlScene::lobeBandsOf(std::uint32_t mesh) const {
   const encode::EncodedMesh& transfer = asset_->transfer.meshes[mesh];
+  if (materialOf(mesh).isMirror()) return 0;
   return transfer.layout != Layout::None && !transfer.matrices.empty() ? transfer.outBands : 0;
 }
 
@@ -86,23 +101,36 @@ Status GlScene::addTexture(int index) {
   return checkGl("uploading a base-colour texture");
 }
 
-Status GlScene::addProgram(int lobeBands) {
-  if (programs_.contains(lobeBands)) return Status::ok();
-  Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {}};
-  if (lobeBands > 0)
-    fragment.parts = {fmt::format("#define LAMBENT_GLOSSY 1\n#define LAMBENT_BANDS {}", lobeBands),
-                      std::string(shaderSource("sh.glsl"))};
-  else
-    fragment.parts = {"#define LAMBENT_GLOSSY 0"};
-  fragment.parts.push_back(environmentDefines());
-  for (const char* part : {"base_color.glsl", "environment.glsl", "surface.frag.glsl"})
-    fragment.parts.emplace_back(shaderSource(part));
-  const Program::Stage stages[] = {
-      {GL_VERTEX_SHADER, "surface.vert.glsl", {std::string(shaderSource("surface.vert.glsl"))}},
-      std::move(fragment)};
+Status GlScene::addProgram(SurfaceKind kind, int lobeBands) {
+  if (programs_.contains({kind, lobeBands})) return Status::ok();
+  const int groups = lobeBands > 0 ? shade::rttStride(lobeBands) / 4 : 0;
+  // Position, normal, colour, texture coordinates and exit radiance are interpolated as well.
+  GLint mostVaryings = 0;
+  glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
+  const bool interpolated = groups > 0 && 4 * (groups + 4) <= mostVaryings;
+  std::string defines = fmt::format(
+      "#define LAMBENT_KIND {}\n#define LAMBENT_LOBE_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
+      "#define LAMBENT_EACH_GROUP(DO)",
+      int(kind), groups, interpolated);
+  for (int i = 0; i < groups; ++i) defines += fmt::format(" DO({})", i);
+  Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {defines}};
+  if (lobeBands > 0) {
+    fragment.parts.push_back(fmt::format("#define LAMBENT_BANDS {}", lobeBands));
+    fragment.parts.emplace_back(shaderSource("sh.glsl"));
+  }
+  fragment.parts.emplace_back(shaderSource("base_color.glsl"));
+  if (kind == SurfaceKind::Mirror) {
+    fragment.parts.push_back(environmentDefines());
+    fragment.parts.emplace_back(shaderSource("environment.glsl"));
+  }
+  fragment.parts.emplace_back(shaderSource("surface.frag.glsl"));
+  const Program::Stage stages[] = {{GL_VERTEX_SHADER,
+                                    "surface.vert.glsl",
+                                    {defines, std::string(shaderSource("surface.vert.glsl"))}},
+                                   std::move(fragment)};
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();
-  programs_.emplace(lobeBands, std::move(*program));
+  programs_.emplace(std::pair(kind, lobeBands), std::move(*program));
   return Status::ok();
 }
 
@@ -140,7 +168,11 @@ Status GlScene::addMesh(std::uint32_t index, const encode::EncodedMesh& shown,
   if (largestBlock < 4 * perVertex)
     return report::failed(
         fmt::format("this OpenGL's storage buffers of {} bytes are too small", largestBlock));
-  if (Status s = addProgram(texels || vertices ? lobeBandsOf(index) : 0); !s) return s;
+  const SurfaceKind kind = mirror     ? SurfaceKind::Mirror
+                           : vertices ? SurfaceKind::Vertices
+                           : texels   ? SurfaceKind::Texels
+                                      : SurfaceKind::Black;
+  if (Status s = addProgram(kind, lobeBandsOf(index)); !s) return s;
 
   std::vector<std::pair<RowBand, std::size_t>> litRows;
   if (texels) {
@@ -162,15 +194,16 @@ Status GlScene::addMesh(std::uint32_t index, const encode::EncodedMesh& shown,
   }
 
   for (const TriangleBatch& batch :
-       splitTriangles(mesh, largestBlock / perVertex, largestBlock / (3 * sizeof(std::uint32_t)))) {
+       splitTriangles(mesh, largestBlock / perVertex, largestBlock / (4 * sizeof(float)))) {
     Geometry geometry;
     geometry.vertices = makeBuffer(gatherVertices(mesh, batch));
     geometry.corners = makeBuffer(batch.corners);
+    geometry.normals = makeBuffer(gatherNormals(mesh, batch));
     geometry.cornerCount = int(batch.corners.size());
     geometries_.push_back(std::move(geometry));
     if (Status s = checkGl("uploading a mesh"); !s) return s;
 
-    Draw draw{index, geometries_.size() - 1, {}, {}};
+    Draw draw{index, kind, geometries_.size() - 1, {}, {}};
     if (texels) {
       for (const auto& [band, lit] : litRows) {
         draw.rows = band;
@@ -334,7 +367,7 @@ void GlScene::bindTexture(const Program& program, std::uint32_t mesh) const {
   glBindTextureUnit(0, texture >= 0 ? textures_.at(texture).name() : 0);
 }
 
-void GlScene::draw(const GlView& view, const GlEnvironment* environment) const {
+void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
   glFrontFace(view.mirrored ? GL_CW : GL_CCW);
   glBindVertexArray(noAttributes_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, srgbTable_.name());
@@ -346,30 +379,26 @@ void GlScene::draw(const GlView& view, const GlEnvironment* environment) const {
     const scene::Material& material = materialOf(draw.mesh);
     const encode::EncodedMesh& transfer = asset_->transfer.meshes[draw.mesh];
     const Geometry& geometry = geometries_[draw.geometry];
-    const bool mirror = material.isMirror() && environment;
-    const SurfaceKind kind = mirror                                ? SurfaceKind::Mirror
-                             : !draw.lit                           ? SurfaceKind::Black
-                             : transfer.layout == Layout::Vertices ? SurfaceKind::Vertices
-                                                                   : SurfaceKind::Texels;
-    const Program& program = programs_.at(draw.lit ? lobeBandsOf(draw.mesh) : 0);
+    const Program& program = programs_.at({draw.kind, lobeBandsOf(draw.mesh)});
     program.use();
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
-    program.set("kind", int(kind));
     program.set("hasDiffuse", int(draw.lit && !transfer.vectors.empty()));
     program.set("albedoOutside", int(transfer.albedo == transport::Albedo::BaseColor));
     program.set("mirror", material.mirror.x(), material.mirror.y(), material.mirror.z());
     program.set("grid", transfer.width, transfer.height);
     program.set("rows", draw.rows.begin, draw.rows.end);
     bindTexture(program, draw.mesh);
-    if (mirror) environment->bind(program, view.environmentFromWorld);
+    if (draw.kind == SurfaceKind::Mirror) environment.bind(program, view.environmentFromWorld);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, geometry.corners.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2,
                      draw.lit ? lit_[*draw.lit].diffuse.product.name() : 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3,
                      draw.lit ? lit_[*draw.lit].lobe.product.name() : 0);
-    glDrawArrays(GL_TRIANGLES, 0, geometry.cornerCount);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, geometry.normals.name());
+    glVertexArrayElementBuffer(noAttributes_.name(), geometry.corners.name());
+    glDrawElements(GL_TRIANGLES, geometry.cornerCount, GL_UNSIGNED_INT, nullptr);
   }
   patches_.draw(view, noAttributes_.name());
 }

@@ -47,12 +47,14 @@ class GlScene {
 
   bool hasMirrors() const { return hasMirrors_; }
   /// Draws all surfaces into the bound framebuffer: radiance, and 1 in alpha. Mirrors show
-  /// `environment`; without one they are black.
-  void draw(const GlView& view, const GlEnvironment* environment) const;
+  /// `environment`.
+  void draw(const GlView& view, const GlEnvironment& environment) const;
 
  private:
+  /// As in surface.frag.glsl.
+  enum class SurfaceKind { Vertices = 0, Texels = 1, Mirror = 2, Black = 3 };
   struct Geometry {
-    Buffer vertices, corners;
+    Buffer vertices, corners, normals;
     int cornerCount = 0;
   };
   struct Lit {
@@ -61,6 +63,7 @@ class GlScene {
   };
   struct Draw {
     std::uint32_t mesh = 0;
+    SurfaceKind kind = SurfaceKind::Black;
     std::size_t geometry = 0;
     std::optional<std::size_t> lit;
     RowBand rows;
@@ -77,7 +80,7 @@ class GlScene {
   Status addMesh(std::uint32_t mesh, const encode::EncodedMesh& shown,
                  std::optional<shade::MacroTransport> macro);
   Status addTexture(int texture);
-  Status addProgram(int lobeBands);
+  Status addProgram(SurfaceKind kind, int lobeBands);
   Result<Lit> makeLit(std::uint32_t mesh, const encode::EncodedMesh& shown,
                       const std::vector<std::uint32_t>& receivers, std::optional<float> lobe);
   shade::ShownTransfer shownTransfer(std::uint32_t mesh, shade::TransferChoice transfer,
@@ -105,8 +108,8 @@ class GlScene {
   std::vector<Geometry> geometries_;
   std::vector<Lit> lit_;
   std::vector<Draw> draws_;
-  std::map<int, Texture> textures_;  ///< by index into the scene's
-  std::map<int, Program> programs_;  ///< by bands of the lobe, 0: not glossy
+  std::map<int, Texture> textures_;                          ///< by index into the scene's
+  std::map<std::pair<SurfaceKind, int>, Program> programs_;  ///< … and bands of the lobe, or 0
   Program unlit_;
   Buffer srgbTable_;
   VertexArray noAttributes_;

@@ -34,10 +34,14 @@ GlStateGuard::GlStateGuard() {
 
 GlStateGuard::~GlStateGuard() {
   for (std::size_t i = 0; i < kSwitches.size(); ++i) (on_[i] ? glEnable : glDisable)(kSwitches[i]);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(drawFramebuffer_));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(readFramebuffer_));
-  glUseProgram(GLuint(program_));
-  glBindVertexArray(GLuint(vertexArray_));
+  // What was deleted while it was in use is no more, now that it was put aside.
+  const auto known = [](GLint name, GLboolean there) { return there ? GLuint(name) : 0u; };
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER,
+                    known(drawFramebuffer_, glIsFramebuffer(GLuint(drawFramebuffer_))));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER,
+                    known(readFramebuffer_, glIsFramebuffer(GLuint(readFramebuffer_))));
+  glUseProgram(known(program_, glIsProgram(GLuint(program_))));
+  glBindVertexArray(known(vertexArray_, glIsVertexArray(GLuint(vertexArray_))));
   glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
   glPolygonMode(GL_FRONT_AND_BACK, GLenum(polygonMode_[0]));
   glDepthFunc(GLenum(depthFunction_));

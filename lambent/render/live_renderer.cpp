@@ -243,7 +243,7 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
       view.worldFromEnvironment.transpose() * view.worldFromAsset.topLeftCorner<3, 3>();
   seen.unlit = view.unlit;
   target.beginFrame();
-  impl_->scene.draw(seen, &impl_->environmentOnGpu);
+  impl_->scene.draw(seen, impl_->environmentOnGpu);
   impl_->clipFromWorld = seen.clipFromWorld * assetFromWorld;
   impl_->background = view.background;
   impl_->pending = seen;

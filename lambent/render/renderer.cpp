@@ -29,14 +29,14 @@ struct Renderer::Impl {
   GlContext context;
   GlTarget target;
   GlScene scene;
-  std::optional<GlEnvironment> inMirrors;
+  GlEnvironment inMirrors;
 
   /// One frame, seen through `place` of every pixel.
   GlView draw(const scene::Camera& camera, const Vec2& place) const {
     const GlView view =
         viewThrough(camera, options.width, options.height, bounds, place, options.samples);
     target.beginFrame();
-    scene.draw(view, inMirrors ? &*inMirrors : nullptr);
+    scene.draw(view, inMirrors);
     return view;
   }
 };
@@ -74,10 +74,9 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   sceneOptions.transfer = options.transfer;
   Result<GlScene> scene = GlScene::makeLit(asset, light, sceneOptions);
   if (!scene) return scene.error();
-  std::optional<GlEnvironment> inMirrors;
+  GlEnvironment inMirrors;
   if (scene->hasMirrors()) {
-    inMirrors.emplace();
-    if (Status s = inMirrors->set(environment, limits.largestTexture); !s) return s.error();
+    if (Status s = inMirrors.set(environment, limits.largestTexture); !s) return s.error();
   }
   Result<GlTarget> target = GlTarget::make(width, height);
   if (!target) return target.error();

@@ -242,7 +242,7 @@ Result<Relit> TransferOnGpu::lobe(const EncodedMesh& mesh, std::vector<std::uint
   relit.shape.channels = mesh.matrixChannels;
   relit.shape.rows = relit.shape.rowsUsed = rows;
   relit.shape.columns = sh::coefficientCount(mesh.inBands);
-  relit.shape.stride = 3 * rows;
+  relit.shape.stride = shade::rttStride(mesh.outBands);
   relit.shape.reflectance = mesh.glossy;
   setLobe(relit, mesh, lobeExponent);
   if (Status s = multiply(relit, mesh.matrices); !s) return s.error();

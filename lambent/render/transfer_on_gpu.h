@@ -15,6 +15,7 @@
 #include "lambent/render/gl_objects.h"
 #include "lambent/sh/coefficients.h"
 #include "lambent/shade/bi_scale_options.h"
+#include "lambent/shade/rtt_pyramid.h"
 
 namespace lambent::render {
 
@@ -71,7 +72,8 @@ class TransferOnGpu {
 
   /// Exit radiance M · L of the named receivers of a mesh: [receiver][3].
   Result<Relit> diffuse(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers);
-  /// α_i G_i (M L)_i k: [receiver][coefficient][3].
+  /// α_i G_i (M L)_i k: [receiver][rttStride(outBands)], coefficient after coefficient, each R, G,
+  /// B, filled up with zeros.
   Result<Relit> lobe(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
                      std::optional<float> lobeExponent);
   /// Another lobe for what lobe() made.
@@ -108,7 +110,7 @@ class TransferOnGpu {
 
 /// Bytes that lobe() makes for each receiver.
 inline std::size_t lobeBytes(int outBands) {
-  return sizeof(float) * 3 * sh::coefficientCount(outBands);
+  return sizeof(float) * std::size_t(shade::rttStride(outBands));
 }
 
 }  // namespace lambent::render
