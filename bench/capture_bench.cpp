@@ -81,9 +81,9 @@ void run() {
                   },
                   [&] { readBack(faces, pixels); }, [&] { capture::project(picture, weights); }});
   const double perSample = seconds[1] / 8;
-  note("capture, 1 sample, 6x16x16 of 2x2", 1e3 * seconds[0], "ms", "seed paper 1.16");
-  note("capture, 8 samples, for each", 1e3 * perSample, "ms", "seed paper 1.16");
-  note("capture, 32 samples, for each", 1e3 * seconds[2] / 32, "ms", "seed paper 1.16");
+  note("capture, 1 sample, 6x16x16 of 2x2", 1e3 * seconds[0], "ms", "paper 1.16");
+  note("capture, 8 samples, for each", 1e3 * perSample, "ms", "paper 1.16");
+  note("capture, 32 samples, for each", 1e3 * seconds[2] / 32, "ms", "paper 1.16");
   note("capture, 8 samples of 6x8x8, for each", 1e3 * seconds[4] / 8, "ms");
   note("reduction and clearing alone, for each of 8 samples", 1e3 * seconds[3] / 8, "ms");
   note("share of reduction and clearing", seconds[3] / seconds[1], "ratio");

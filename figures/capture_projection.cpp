@@ -57,8 +57,8 @@ void captureProjection(const Studio&) {
   const int bands = 6;
   fmt::print(
       "squared error of projecting unit-power functions of 6 bands, average / worst\n"
-      "| cube | samples, differential ds | seed paper | samples, exact ds | as captured (2×2) "
-      "| bilinear, projected | bilinear, whole | seed paper, bilinear |\n"
+      "| cube | samples, differential ds | paper | samples, exact ds | as captured (2×2) "
+      "| bilinear, projected | bilinear, whole | paper, bilinear |\n"
       "|---|---|---|---|---|---|---|---|\n");
   struct Row {
     int size;

@@ -49,7 +49,7 @@ TEST(CubeMap, UniformLightIsCapturedExactly) {
   for (int i = 1; i < 9; ++i) EXPECT_NEAR(light.channel(1)[i], 0, 2e-2);
 }
 
-// The seed paper's first analysis: about 0.3% and 1% at 6×4×4, 0.003% and 0.02% at 6×8×8.
+// The paper's first analysis: about 0.3% and 1% at 6×4×4, 0.003% and 0.02% at 6×8×8.
 TEST(ProjectionError, OfBandlimitedFunctions) {
   struct Case {
     int size;
@@ -84,7 +84,7 @@ TEST(ProjectionError, IsThatOfCapturedFunctions) {
   EXPECT_NEAR(projectionError(shape, bands).average, sum / count, 1e-6);
 }
 
-// The seed paper's second analysis, as far as it says what it did: errors fall from about a
+// The paper's second analysis, as far as it says what it did: errors fall from about a
 // percent at 6×8×8, most of it in what lies between the samples.
 TEST(ProjectionError, OfBilinearReconstruction) {
   const BilinearErrors at8 = bilinearErrors(8, 6), at16 = bilinearErrors(16, 6);
