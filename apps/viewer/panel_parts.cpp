@@ -96,7 +96,7 @@ void drawGraph(const FrameTimes& times) {
     x += step;
   }
   list.AddText({corner.x + 5, corner.y + 2}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
-               fmt::format("{:.3g} ms", top).c_str());
+               fmt::format("{:.{}f} ms", top, top < 10.0f ? 1 : 0).c_str());
 }
 
 }  // namespace lambent::viewer

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "apps/viewer/actions.h"
+#include "apps/viewer/gestures.h"
 #include "lambent/light/windowing.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/view/orbit.h"
@@ -84,6 +85,28 @@ Result<bool> onOff(const std::string& text) {
   if (text == "on") return true;
   if (text == "off") return false;
   return badInput(fmt::format("'{}' is neither on nor off", text));
+}
+
+/// What a `drag` or `wheel` says.
+Result<Gesture> gestureOf(const ScriptCommand& command) {
+  using Kind = Gesture::Kind;
+  constexpr std::pair<std::string_view, Kind> kKinds[] = {{"orbit", Kind::Orbit},
+                                                          {"pan", Kind::Pan},
+                                                          {"environment", Kind::TurnEnvironment},
+                                                          {"object", Kind::TurnObject},
+                                                          {"move", Kind::MoveObject}};
+  const bool wheel = command.words[0] == "wheel";
+  const auto given = numbers(command, wheel ? 1 : 2);
+  if (!given) return given.error();
+  if (wheel) {
+    const Vec2 at = Eigen::Vector2d((*given)[1], (*given)[2]).cast<float>();
+    return Gesture{Kind::Zoom, Vec2::Zero(), at, float((*given)[0])};
+  }
+  for (const auto& [name, kind] : kKinds)
+    if (command.words[1] == name)
+      return Gesture{kind, Vec2(float((*given)[0]), float((*given)[1])), Vec2::Zero(), 0.0f};
+  return badInput(fmt::format("'{}' is not dragged: orbit, pan, environment, object or move",
+                              command.words[1]));
 }
 
 /// Bytes of this process that are in memory.
@@ -302,6 +325,11 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
     if (word(1) != "object" && word(1) != "environment")
       return badInput(fmt::format("'{}' does not move: object or environment", word(1)));
     (word(1) == "object" ? session.desk.turnObject : session.desk.turnEnvironment) = *on;
+  }
+  if (name == "drag" || name == "wheel") {
+    const auto gesture = gestureOf(command);
+    if (!gesture) return gesture.error();
+    apply(session, *gesture, scene.layout.picture);
   }
   if (name == "key") {
     const Action* action = actionNamed(word(1));

@@ -1,6 +1,7 @@
 """The native viewer, run by scripts on a display without a screen."""
 
 import json
+import math
 import os
 import struct
 import unittest
@@ -239,6 +240,47 @@ class View(ToolTest):
         self.assertIsNotNone(state["camera"])
         self.assertTrue(self.path("ball-001.png").exists())
         self.assertEqual(read_png(self.path("help.png"))[:2], (560, 320))
+
+    def test_what_is_dragged_follows_the_hand(self):
+        """Seen along −z, from a distance of 4."""
+        self.bake()
+        camera = {"position": [0, 0, 4], "target": [0, 0, 0], "up": [0, 1, 0], "verticalFov": 40}
+        self.write("front.json", json.dumps({"lambent": "view", "camera": camera}))
+        text = "set panel off\n"
+        for name, drag in (("object", "drag object 0.25 0"), ("up", "drag object 0 0.25"),
+                           ("sky", "drag environment 0.25 0"), ("rise", "drag environment 0 0.25"),
+                           ("walk", "drag orbit 0.25 0"), ("over", "drag orbit 0 -0.25"),
+                           ("pan", "drag pan 0.1 0.2"), ("move", "drag move 0.1 0.2"),
+                           ("near", "wheel 3 0.2 0.1")):
+            text += f"state front.json\n{drag}\nsave-state {name}.json\n"
+        self.script(text, "ball.glb")
+        half = math.sin(math.pi / 8)  # a quarter of the height is an eighth of a whole turn
+        height = 2 * 4 * math.tan(math.radians(20))
+
+        def part(name, *keys):
+            value = json.loads(self.path(name + ".json").read_text())
+            for key in keys:
+                value = value[key]
+            return value
+
+        def close(got, expected):
+            for a, b in zip(got, expected, strict=True):
+                self.assertAlmostEqual(a, b, 4, (got, expected))
+
+        # What is nearest (+z) goes to the right (+x): a positive turn about +y.
+        close(part("object", "object", "rotation")[:3], [0, half, 0])
+        close(part("up", "object", "rotation")[:3], [-half, 0, 0])
+        # What is farthest (−z) goes to the right, or upwards.
+        close(part("sky", "environment", "rotation")[:3], [0, -half, 0])
+        close(part("rise", "environment", "rotation")[:3], [half, 0, 0])
+        # To drag to the right is to walk to the left, and down is to rise.
+        close(part("walk", "camera", "position"), [-4 * math.sqrt(0.5), 0, 4 * math.sqrt(0.5)])
+        close(part("over", "camera", "position"), [0, 4 * math.sqrt(0.5), 4 * math.sqrt(0.5)])
+        close(part("pan", "camera", "target"), [-0.1 * height, -0.2 * height, 0])
+        close(part("move", "object", "translation"), [0.1 * height, 0.2 * height, 0])
+        shrunk = 0.87**3
+        close(part("near", "camera", "position"),
+              [0.2 * height * (1 - shrunk), 0.1 * height * (1 - shrunk), 4 * shrunk])
 
     def test_screenshot_option(self):
         self.bake()

@@ -5,8 +5,8 @@
 
 Makes small assets of every kind, starts a display without a screen (Xvfb), and lets a script load
 them one after the other, relight them and turn them. OpenGL objects alive must be as many at the
-end as after the first round; resident memory may not grow by more than a few megabytes from the
-middle of the run to its end. Prints what it measured and exits with 1 where it does not hold.
+end as after the first round; resident memory may not grow from the middle of the run to its end by
+more than it varies. Prints what it measured and exits with 1 where that does not hold.
 """
 
 import argparse
@@ -22,7 +22,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cli"))
 from display import start_display  # noqa: E402: found in the folder named above
 
-ALLOWED_GROWTH = 8 << 20  # bytes, of pages that the allocator keeps for later
+# Bytes. What the allocator keeps for later comes and goes by half of this from round to round; the
+# largest of the assets alone takes 16 MB, so that one which is kept each round is soon beyond it.
+ALLOWED_GROWTH = 24 << 20
 
 
 def make_assets(tool: str, folder: Path) -> list:
