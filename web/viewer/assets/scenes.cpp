@@ -49,10 +49,10 @@ Result<asset::Asset> stillLife() {
                                               {0.24f, 0.13f},
                                               {0.185f, 0.035f},
                                               {0.18f, 0.004f}},
-                                             20))
+                                             26))
     jar.push_back(p);
   jar.insert(jar.end(), {{0.17f, 0.002f}, {0.17f, 0.002f}, {0.0f, 0.002f}});
-  add(scene, "jar", scene::translated(turned(jar, 30), Vec3(-0.50f, 0, -0.60f)), glaze);
+  add(scene, "jar", scene::translated(turned(jar, 44), Vec3(-0.50f, 0, -0.60f)), glaze);
 
   const auto stone = [](float radius, const Vec3& shape, const Vec3& at, float turn) {
     Mesh mesh = scene::scaled(scene::icosphere(radius, 3), shape);
@@ -90,7 +90,7 @@ Result<asset::Asset> stillLife() {
   if (!rays) return rays.error();
   transport::BakeOptions options;
   options.directions = 4096;
-  options.glossyBands = 4;
+  options.glossyBands = 3;
   options.bounces = 3;
   Findings findings;
   const auto field = transport::bake(scene, *rays, options, {}, findings);

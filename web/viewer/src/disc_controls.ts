@@ -78,7 +78,7 @@ export class DiscControls {
       strength.element,
       h("div", { class: "toggle" }, h("label", { for: "disc-color" }, "Colour"), color),
       h("div", { class: "row" },
-        button("Remove this disc", "Take the disc away", () =>
+        button("Remove this disc", "Take the disc away (Delete)", () =>
           this.actions.removeDisc(this.chosen))),
     );
   }
@@ -87,7 +87,7 @@ export class DiscControls {
     this.chosen = chosen;
     if (this.chips.querySelectorAll(".chip").length !== view.discs.length ||
         this.chips.childElementCount === 0) {
-      const add = button("Add", "Add a disc of light (L)", () => this.actions.addDisc());
+      const add = button("Add", "Add a disc of light (D)", () => this.actions.addDisc());
       add.disabled = view.discs.length >= kMostDiscs;
       if (add.disabled) add.title = `There can be ${kMostDiscs} discs`;
       this.chips.replaceChildren(

@@ -33,6 +33,7 @@ export function facts(viewer: Viewer, environment: number): PanelFacts {
     environment,
     disc: viewer.disc,
     playing: viewer.playing,
+    unlit: viewer.unlit,
     info:
       asset === undefined
         ? "Drop a .glb that lambent bake wrote."

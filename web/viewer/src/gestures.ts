@@ -29,7 +29,7 @@ export function listen(element: HTMLElement, target: GestureTarget): () => void 
   let lastClick = -Infinity;
 
   const gripOf = (event: PointerEvent): Grip =>
-    event.altKey ? "light" : event.ctrlKey || event.metaKey ? "object" : target.grip();
+    event.shiftKey ? "light" : event.ctrlKey || event.metaKey ? "object" : target.grip();
 
   element.addEventListener("contextmenu", (event) => event.preventDefault(), options);
   element.addEventListener(
@@ -56,7 +56,7 @@ export function listen(element: HTMLElement, target: GestureTarget): () => void 
       dragged ||= Math.hypot(event.clientX - start.x, event.clientY - start.y) >= kSlip;
       if (pointers.size === 1 && fingers === 1) {
         if (!dragged) return; // the slip is not lost: `before` stays
-        if (button !== 0 || event.shiftKey) target.pan(x, y);
+        if (button !== 0 || event.altKey) target.pan(x, y);
         else target.drag(gripOf(event), x, y);
       } else if (pointers.size === 2) {
         const other = [...pointers.entries()].find(([id]) => id !== event.pointerId)![1];

@@ -1,6 +1,6 @@
 // Keys → what they do; the list in help.ts says the same to people.
 import type { Viewer } from "./viewer";
-import { kTransfers } from "./view_state";
+import { kTransfers, type ViewState } from "./view_state";
 
 const kStep = 0.07; // radians
 const kPanStep = 30; // pixels
@@ -8,6 +8,7 @@ const kPanStep = 30; // pixels
 export interface KeyActions {
   openFiles(): void;
   savePicture(): void;
+  saveView(): void;
   hide(): void;
   help(): void;
 }
@@ -20,6 +21,8 @@ export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
     ArrowUp: [0, -1],
     ArrowDown: [0, 1],
   };
+  const nextEnvironment = (by: number) =>
+    next(viewer.environments.length, environmentOf(viewer), by, (i) => viewer.openEnvironment(i));
   const simple: Record<string, () => void> = {
     "+": () => viewer.zoom(1.1),
     "=": () => viewer.zoom(1.1),
@@ -27,18 +30,22 @@ export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
     f: () => viewer.frame(),
     r: () => viewer.reset(),
     " ": () => viewer.play(!viewer.playing),
+    a: () => viewer.play(!viewer.playing),
+    u: () => viewer.setUnlit(!viewer.unlit),
     m: () => viewer.change((view) => (view.macro = !view.macro)),
     v: () => viewer.change((view) => (view.viewDependent = !view.viewDependent)),
-    e: () => void next(viewer.environments.length, environmentOf(viewer), (i) =>
-      viewer.openEnvironment(i)),
-    a: () => void next(viewer.assets.length, viewer.asset, (i) => viewer.openAsset(i)),
-    l: () => viewer.addDisc(),
-    "[": () => viewer.change((view) => (view.exposure = step(view.exposure, -0.5))),
-    "]": () => viewer.change((view) => (view.exposure = step(view.exposure, 0.5))),
+    e: () => nextEnvironment(1),
+    E: () => nextEnvironment(-1),
+    n: () => next(viewer.assets.length, viewer.asset, 1, (i) => viewer.openAsset(i)),
+    d: () => viewer.addDisc(),
+    Delete: () => viewer.removeDisc(viewer.disc),
+    w: () => viewer.change((view) => (view.window = windowAfter(view.window))),
+    "[": () => viewer.change((view) => (view.exposure = brighter(view.exposure, -1 / 3))),
+    "]": () => viewer.change((view) => (view.exposure = brighter(view.exposure, 1 / 3))),
     t: () => viewer.change((view) => (view.tone = view.tone === "filmic" ? "linear" : "filmic")),
     b: () => viewer.change((view) => (view.background = !view.background)),
     o: () => actions.openFiles(),
-    p: () => actions.savePicture(),
+    s: () => actions.savePicture(),
     h: () => actions.hide(),
     "?": () => actions.help(),
   };
@@ -48,16 +55,20 @@ export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
     if (wantsKey(event)) return;
     if (arrow !== undefined) {
       const [x, y] = arrow;
-      if (event.shiftKey) viewer.pan(kPanStep * x, kPanStep * y);
+      if (event.altKey) viewer.pan(-kPanStep * x, -kPanStep * y);
       else if (event.ctrlKey || event.metaKey) viewer.turnObject(kStep * x, kStep * y);
-      else if (event.altKey) viewer.turnLight(kStep * x, kStep * y);
+      else if (event.shiftKey) viewer.turnLight(kStep * x, kStep * y);
       else viewer.drag(viewer.grip, kStep * x, kStep * y);
       return event.preventDefault();
     }
+    if ((event.ctrlKey || event.metaKey) && event.key === "s") {
+      event.preventDefault();
+      return actions.saveView();
+    }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const transfer = kTransfers[Number(event.key) - 1];
+    const transfer = /^[0-3]$/.test(event.key) ? kTransfers[Number(event.key)] : undefined;
     if (transfer !== undefined) return viewer.change((view) => (view.transfer = transfer));
-    const action = simple[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const action = simple[event.key] ?? simple[event.key.toLowerCase()];
     if (action === undefined) return;
     event.preventDefault();
     action();
@@ -79,8 +90,15 @@ export function environmentOf(viewer: Viewer): number {
     (each) => each.source === viewer.view.environment.source,
   );
 }
-function next(count: number, now: number, open: (index: number) => unknown): void {
-  if (count > 0) open((now + 1) % count);
+function next(count: number, now: number, by: number, open: (index: number) => unknown): void {
+  if (count > 0) open((Math.max(0, now) + by + count) % count);
 }
-const step = (exposure: number, by: number): number =>
-  Math.max(-60, Math.min(60, Math.round((exposure + by) * 10) / 10));
+const brighter = (exposure: number, by: number): number =>
+  Math.max(-60, Math.min(60, Math.round((exposure + by) * 300) / 300));
+
+/** None, the least, Hann's and Lanczos's in turn; as wide as the light has bands. */
+function windowAfter(window: ViewState["window"]): ViewState["window"] {
+  const all = ["none", "minimal", "hann", "lanczos"] as const;
+  const now = all.findIndex((each) => window.startsWith(each));
+  return all[(now + 1) % all.length]!;
+}

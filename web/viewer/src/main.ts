@@ -76,6 +76,7 @@ function start(): void {
     frame: () => viewer.frame(),
     reset: () => viewer.reset(),
     play: (on: boolean) => viewer.play(on),
+    setUnlit: (on: boolean) => viewer.setUnlit(on),
     saveView: () =>
       save(new Blob([viewToJson(viewer.view)], { type: "application/json" }), "view.json"),
     copyLink: () => void copyLink(viewer),
@@ -88,7 +89,7 @@ function start(): void {
     [
       { value: "camera", label: "Camera" },
       { value: "object", label: "Object", title: "Also: Ctrl + drag" },
-      { value: "light", label: "Light", title: "Also: Alt + drag" },
+      { value: "light", label: "Light", title: "Also: Shift + drag" },
     ],
     (value) => (viewer.grip = value),
   );
@@ -99,7 +100,11 @@ function start(): void {
   stage.append(show);
   document.body.append(panel.element, help.element);
   listenToKeys(viewer, {
-    openFiles: actions.openFiles, savePicture, hide, help: () => help.toggle(),
+    openFiles: actions.openFiles,
+    savePicture,
+    saveView: actions.saveView,
+    hide,
+    help: () => help.toggle(),
   });
   acceptDrops(openAll);
 

@@ -18,6 +18,7 @@ export interface PanelActions {
   frame(): void;
   reset(): void;
   play(on: boolean): void;
+  setUnlit(on: boolean): void;
   saveView(): void;
   copyLink(): void;
   savePicture(): void;
@@ -32,6 +33,7 @@ export interface PanelFacts {
   environment: number;
   disc: number;
   playing: boolean;
+  unlit: boolean;
   info: string;
   /** Why a choice shows nothing of its own; null where it does. */
   noTransfer: Record<TransferChoice, string | null>;
@@ -129,7 +131,7 @@ export class Panel {
           view.environment.rotation = [0, Math.sin(half), 0, Math.cos(half)];
         }),
     });
-    const play = toggle("Let it go round", "Turn the light slowly (Space)", (on) =>
+    const play = toggle("Let it go round", "Turn the light slowly (A)", (on) =>
       actions.play(on));
     const discs = new DiscControls(actions);
     const window = segments<"none" | "minimal" | "hann" | "lanczos">(
@@ -180,11 +182,11 @@ export class Panel {
     const transfer = segments<TransferChoice>(
       "What light does",
       [
-        { value: "best", label: "Best", title: "The best that the asset holds (1)" },
-        { value: "unshadowed", label: "Bare", title: "Unshadowed: the cosine alone (2)" },
-        { value: "shadowed", label: "Shadows", title: "Shadowed: surfaces hide light (3)" },
+        { value: "best", label: "Best", title: "The best that the asset holds (0)" },
+        { value: "unshadowed", label: "Bare", title: "Unshadowed: the cosine alone (1)" },
+        { value: "shadowed", label: "Shadows", title: "Shadowed: surfaces hide light (2)" },
         { value: "interreflected", label: "Bounces",
-          title: "Interreflected: surfaces also pass light on (4)" },
+          title: "Interreflected: surfaces also pass light on (3)" },
       ],
       (choice) => actions.change((view) => (view.transfer = choice)),
     );
@@ -195,6 +197,7 @@ export class Panel {
     const views = toggle("Dependence on the view",
       "Off: meso-structure as seen from straight above (V)",
       (on) => actions.change((view) => (view.viewDependent = on)));
+    const unlit = toggle("Base colour alone", "Without light (U)", (on) => actions.setUnlit(on));
     const ownLobe = toggle("Lobe of my own", "Another exponent of glossy lobes", (on) =>
       actions.change((view) => (view.lobe = on ? 16 : null)));
     // Exponents as the ear hears loudness: equal steps are equal ratios.
@@ -225,9 +228,10 @@ export class Panel {
       ownLobe.forbid(facts.noLobe);
       lobe.set(Math.log2(Math.max(view.lobe ?? 16, 1)));
       lobe.element.hidden = view.lobe === null;
+      unlit.set(facts.unlit);
     });
     return this.section("Transport", transfer.element, macro.element, views.element,
-      ownLobe.element, lobe.element, reasons);
+      ownLobe.element, lobe.element, unlit.element, reasons);
   }
 
   private pictureSection(graph: FrameGraph): HTMLElement {
@@ -267,8 +271,8 @@ export class Panel {
     return this.section("Picture", exposure.element, tone.element, background.element,
       samples.element,
       h("div", { class: "row" },
-        button("Save picture", "As .png (P)", () => actions.savePicture()),
-        button("Save view", "As .json, which lambent render --view takes", () =>
+        button("Save picture", "As .png (S)", () => actions.savePicture()),
+        button("Save view", "As .json, which lambent view and lambent render --view take (Ctrl + S)", () =>
           actions.saveView()),
         button("Copy link", "To this page with this view", () => actions.copyLink())),
       h("h3", {}, "Frame times"), graph.element);

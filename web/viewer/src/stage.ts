@@ -139,7 +139,7 @@ export class Stage {
   }
 
   /** What a view says about the object and its light. Costs no time that grows with the asset. */
-  apply(view: ViewState): void {
+  apply(view: ViewState, unlit = false): void {
     this.tone.exposure = view.exposure;
     this.tone.curve = view.tone;
     const discs: Disc[] = view.discs.map((disc) => ({
@@ -179,6 +179,7 @@ export class Stage {
     asset.macro = view.macro;
     asset.viewDependent = view.viewDependent;
     asset.lobeExponent = view.lobe;
+    asset.unlit = unlit;
     asset.setLight(this.light);
     asset.setEnvironment(seen);
   }

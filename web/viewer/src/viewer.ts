@@ -15,6 +15,7 @@ import {
   parseView,
   type DiscState,
   type LookAt,
+  type Triple,
   type ViewState,
 } from "./view_state";
 
@@ -27,6 +28,8 @@ export interface Opened {
 
 const kRadiansPerPixel = 0.008;
 const kGoRound = 0.35; // radians a second
+/** Width over height that the manifest's views leave nothing out at. */
+const kViewsMadeFor = 1.15;
 const kStillAfter = 120; // milliseconds without a change until a picture is refined
 
 export class Viewer {
@@ -41,6 +44,7 @@ export class Viewer {
   disc = -1;
   grip: Grip = "camera";
   playing = false;
+  unlit = false;
   /** Called after anything changed that controls show. */
   changed: () => void = () => {};
 
@@ -135,12 +139,17 @@ export class Viewer {
     this.view = this.viewOf(own);
     this.view.environment.source = source;
     this.disc = -1;
+    this.unlit = false;
     this.play(false);
-    this.touch();
   }
   play(on: boolean): void {
     this.playing = on;
     this.lastFrame = performance.now();
+    this.touch();
+  }
+  /** Base colours instead of light: to see what the light does. */
+  setUnlit(on: boolean): void {
+    this.unlit = on;
     this.touch();
   }
   addDisc(): void {
@@ -159,6 +168,7 @@ export class Viewer {
     this.change((view) => view.discs.push(disc));
   }
   removeDisc(index: number): void {
+    if (this.view.discs[index] === undefined) return;
     this.change((view) => view.discs.splice(index, 1));
     this.chooseDisc(Math.min(index, this.view.discs.length - 1));
   }
@@ -277,7 +287,15 @@ export class Viewer {
       Object.assign(base, structuredClone(last), { camera: null, object: defaultView().object });
     else if (this.environments.length > 0) base.environment.source = this.environments[0]!.source;
     if (members === undefined) return base;
-    return parseView({ lambent: "view", ...members }, "manifest.json", base);
+    const view = parseView({ lambent: "view", ...members }, "manifest.json", base);
+    // Set up for a window that is wider than high: a phone steps back.
+    const back = Math.min(1, this.stage.aspect / kViewsMadeFor);
+    if (view.camera !== null) {
+      const { position, target } = view.camera;
+      view.camera.position = position.map(
+        (each, i) => target[i]! + (each - target[i]!) / back) as Triple;
+    }
+    return view;
   }
   private async useEnvironment(source: string, anew = false): Promise<void> {
     if (!anew && this.stage.environment?.source === source) return;
@@ -336,7 +354,7 @@ export class Viewer {
     const began = performance.now();
     if (this.moved) {
       this.moved = false;
-      this.stage.apply(this.view);
+      this.stage.apply(this.view, this.unlit);
       this.stage.drawMoving(this.camera());
       this.graph.add(now, performance.now() - began);
     } else if (!this.done && began - this.lastChange >= kStillAfter) {
