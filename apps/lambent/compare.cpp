@@ -12,6 +12,7 @@
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/verbs.h"
+#include "lambent/image/code_difference.h"
 #include "lambent/image/compare.h"
 #include "lambent/image/io.h"
 #include "lambent/image/strip.h"
@@ -40,8 +41,10 @@ constexpr std::string_view kExamples = R"(A is the truth, B what is judged.
   noise           what of it the variance in A and B accounts for ('lambent reference' stores it)
   beyond_noise    what is left of relative_rmse: the error proper
   psnr            dB below the brightest value of A, or below 1 for PNG
+  difference      mean difference of the developed pictures' 8-bit codes, in steps of 1/255; the
+  difference_lit  same over the pixels that are not black in both; and the largest of one channel
   flip            0 to 1, what a person sees who flips between the developed pictures
-Pixels that neither picture covers are left out of all but flip.
+Pixels that neither picture covers are left out of all but difference and flip.
 
 Examples:
   lambent compare truth.exr ours.exr
@@ -53,8 +56,8 @@ Examples:
       Receiver by receiver: outputs of 'lambent reference' and 'lambent shade'.
 )";
 
-constexpr std::array kMetrics = {"bias",         "rmse",         "relative_rmse",
-                                 "relative_mse", "beyond_noise", "flip"};
+constexpr std::array kMetrics = {"bias",         "rmse",       "relative_rmse",  "relative_mse",
+                                 "beyond_noise", "difference", "difference_lit", "flip"};
 
 Result<Limit> parseLimit(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -71,6 +74,7 @@ Result<Limit> parseLimit(const std::string& text) {
 struct Outcome {
   std::size_t count = 0;  ///< pixels or receivers
   image::Comparison numbers;
+  std::optional<image::CodeDifference> codes;
   std::optional<double> flip;
   float exposure = 0.0f;
   std::optional<double> noise;  ///< relative RMSE that the pictures' own variance accounts for
@@ -101,6 +105,11 @@ Json summaryOf(const Outcome& outcome) {
     json["noise"] = numberOrNull(*outcome.noise);
     json["beyond_noise"] = numberOrNull(beyondNoise(outcome));
   }
+  if (outcome.codes) {
+    json["difference"] = outcome.codes->mean;
+    json["difference_lit"] = outcome.codes->meanLit;
+    json["difference_largest"] = outcome.codes->largest;
+  }
   if (outcome.flip) {
     json["flip"] = *outcome.flip;
     json["exposure"] = outcome.exposure;
@@ -122,6 +131,10 @@ std::string textOf(const Outcome& outcome, std::string_view unit) {
   if (outcome.noise)
     text += fmt::format("  of which noise {:.4f} %, beyond it {:.4f} %\n", 100.0 * *outcome.noise,
                         100.0 * beyondNoise(outcome));
+  if (outcome.codes)
+    text += fmt::format(
+        "  difference     {:.4f} / 255, {:.4f} / 255 where not both are black, at most {}\n",
+        outcome.codes->mean, outcome.codes->meanLit, outcome.codes->largest);
   if (outcome.flip)
     text += fmt::format("  flip           {:.5f} at {:+.2f} EV\n", *outcome.flip, outcome.exposure);
   return text;
@@ -144,7 +157,7 @@ Result<Outcome> compareReceivers(const Arguments& arguments) {
   for (const ShadedReceiver& receiver : b->receivers) judged.push_back(receiver.radiance);
   const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
   if (!numbers) return badInput(arguments.truth.string() + ": " + numbers.error().message);
-  Outcome outcome{truth.size(), *numbers, {}, 0.0f, {}};
+  Outcome outcome{truth.size(), *numbers, {}, {}, 0.0f, {}};
   if (!a->variances.empty() || !b->variances.empty()) {
     double variance = 0.0, power = 0.0;
     for (const auto* file : {&*a, &*b})
@@ -222,23 +235,23 @@ Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
   if (!whole) return badInput(arguments.truth.string() + ": " + whole.error().message);
   const auto [truth, judged] = covered(*a, *b);
   const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
-  Outcome outcome{truth.size(), numbers ? *numbers : *whole, whole->flip, options.exposureEv,
-                  noiseOf(arguments, *a, *b)};
+  const auto develop = [&](const image::Image& picture, radiometry::ToneCurve curve) {
+    return radiometry::toneMap(picture, options.exposureEv, curve);
+  };
+  const image::Image shownA = develop(*a, options.curve), shownB = develop(*b, options.curve);
+  Outcome outcome{truth.size(), numbers ? *numbers : *whole, image::codeDifference(shownB, shownA),
+                  whole->flip,  options.exposureEv,          noiseOf(arguments, *a, *b)};
   if (developed) outcome.numbers.psnr = whole->psnr;
   if (outcome.numbers.nonFinitePixels > 0)
     console.warn("not-finite", fmt::format("{} pixels are not finite and were left out",
                                            outcome.numbers.nonFinitePixels));
 
-  const auto develop = [&](const image::Image& picture, radiometry::ToneCurve curve) {
-    return radiometry::toneMap(picture, options.exposureEv, curve);
-  };
   const image::Image difference =
       develop(image::difference(*b, *a, arguments.gain), radiometry::ToneCurve::Linear);
   if (!arguments.difference.empty())
     if (Status s = written(image::write(difference, arguments.difference)); !s) return s.error();
   if (!arguments.strip.empty()) {
-    Status s =
-        writeStrip(arguments, develop(*a, options.curve), develop(*b, options.curve), difference);
+    Status s = writeStrip(arguments, shownA, shownB, difference);
     if (!s) return s.error();
   }
   return outcome;

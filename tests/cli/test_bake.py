@@ -5,7 +5,7 @@ import os
 import subprocess
 from pathlib import Path
 
-from harness import FAILED, INPUTS, ToolTest, ball_obj, png, quad_obj, read_csv
+from harness import FAILED, INPUTS, USAGE, ToolTest, ball_obj, png, quad_obj, read_csv
 
 GLTF_MODULES = os.environ["LAMBENT_GLTF_MODULES"]
 
@@ -100,11 +100,72 @@ class Bake(ToolTest):
         self.bake()
         self.bake("plane.obj", "texels.glb", "--texels", "8x8", "--encoding", "float32")
         self.bake("ball.obj", "glossy.glb", "--material", "glossy", "--transfer", "shadowed")
+        self.bake("ball.obj", "both.glb", "--material", "glossy", "--ground", "--keep-shadowed")
         result = subprocess.run(
             ["node", Path(__file__).parent.parent / "gltf/validate.mjs", "--modules", GLTF_MODULES,
-             self.path("ball.glb"), self.path("texels.glb"), self.path("glossy.glb")],
+             *(self.path(name + ".glb") for name in ("ball", "texels", "glossy", "both"))],
             capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+
+class TransferChoice(ToolTest):
+    """One asset, shown unshadowed, shadowed and interreflected."""
+
+    SCENE = ("--ground", "--albedo", "0.8,0.5,0.3", "--encoding", "float32")
+    LIGHT = ("--light", "disc:40,35,30,4+uniform:0.3")
+    KINDS = ("unshadowed", "shadowed", "interreflected")
+
+    def test_each_is_what_a_bake_of_that_kind_gives(self):
+        for material in ("diffuse", "glossy"):
+            scene = ("--material", material, *self.SCENE)
+            self.bake("ball.obj", "all.glb", *scene, "--keep-shadowed")
+            means = []
+            for kind in self.KINDS:
+                self.bake("ball.obj", "one.glb", *scene, "--transfer", kind)
+                shade = (*self.LIGHT, "--eye", "0,3,9", "-o")
+                self.run_tool("shade", "one.glb", *shade, "one.csv")
+                self.run_tool("shade", "all.glb", *shade, "all.csv", "--transfer", kind)
+                self.run_tool("compare", "one.csv", "all.csv", "--fail-above", "relative_rmse=1e-3")
+                means.append(sum(row[6] for row in read_csv(self.path("all.csv"))))
+            self.assertLess(means[1], 0.98 * means[0])
+            self.assertLess(means[1], 0.99 * means[2])
+            self.run_tool("shade", "all.glb", *shade, "best.csv")
+            self.assertEqual(self.path("best.csv").read_bytes(), self.path("all.csv").read_bytes())
+
+    def test_pictures_by_either_backend(self):
+        self.bake("ball.obj", "all.glb", "--material", "glossy", *self.SCENE, "--keep-shadowed")
+        for kind in self.KINDS:
+            for backend in ("cpu", "gl"):
+                self.run_tool("render", "all.glb", *self.LIGHT, "--size", "96x72", "--exposure", 0,
+                              "-o", f"{kind}.{backend}.png", "--backend", backend, "--transfer", kind)
+            self.run_tool("compare", f"{kind}.cpu.png", f"{kind}.gl.png", "--fail-above",
+                          "difference=0.5")
+        apart = self.run_json("compare", "shadowed.cpu.png", "unshadowed.cpu.png")
+        self.assertGreater(apart["difference_lit"], 3)
+        self.assertNotEqual(self.path("shadowed.gl.png").read_bytes(),
+                            self.path("interreflected.gl.png").read_bytes())
+
+    def test_info_tells_what_is_kept(self):
+        summary = self.run_json("bake", self.write("ball.obj", ball_obj()), "-o", "all.glb",
+                                *self.SCENE, "--directions", 64, "--keep-shadowed")
+        ball, ground = self.run_json("info", "all.glb")["transfer"]["meshes"]
+        self.assertEqual([ball, ground], summary["transfer"]["meshes"])
+        self.assertTrue(ball["shadowed"] and ground["shadowed"])
+        self.assertEqual((ground["vector_channels"], ground["shadowed_vector_channels"]), (3, 1))
+        self.assertIn("shadowed beside: vectors 1x25", self.run_tool("info", "all.glb").stdout)
+
+    def test_what_was_not_kept_cannot_be_shown(self):
+        self.bake()
+        for verb, output in (("shade", "a.csv"), ("render", "a.png")):
+            self.refused(verb, "ball.glb", "--light", "uniform", "-o", output, "--transfer",
+                         "shadowed", code=USAGE,
+                         says=("ball.glb", "no shadowed transfer", "unshadowed, interreflected",
+                               "--keep-shadowed"))
+        self.bake("ball.obj", "dark.glb", "--transfer", "shadowed")
+        self.refused("shade", "dark.glb", "--light", "uniform", "-o", "a.csv", "--transfer",
+                     "interreflected", code=USAGE, says="unshadowed, shadowed")
+        self.refused("bake", "ball.obj", "-o", "c.glb", "--transfer", "shadowed",
+                     "--keep-shadowed", code=USAGE, says="nothing to keep it beside")
 
 
 class Light(ToolTest):
@@ -174,6 +235,17 @@ class Compare(ToolTest):
         self.assertAlmostEqual(summary["relative_mse"], 1 / 1.01, places=6)
         self.assertAlmostEqual(summary["psnr"], 0.0)
         self.assertGreater(summary["flip"], 0.9)
+        self.assertEqual((summary["difference"], summary["difference_lit"]), (255, 255))
+
+    def test_steps_of_the_codes(self):
+        self.write("a.png", png(8, 8, lambda x, y: (100 * (x < 2), 0, 0)))
+        self.write("b.png", png(8, 8, lambda x, y: (106 * (x < 2), 3 * (x < 1), 0)))
+        summary = self.run_json("compare", "a.png", "b.png")
+        self.assertAlmostEqual(summary["difference"], (2 * 6 + 3) / 24)
+        self.assertAlmostEqual(summary["difference_lit"], (2 * 6 + 3) / 6)
+        self.assertEqual(summary["difference_largest"], 6)
+        self.run_tool("compare", "a.png", "b.png", "--fail-above", "difference=0.7")
+        self.run_tool("compare", "a.png", "b.png", "--fail-above", "difference_lit=0.7", code=FAILED)
 
     def test_equal_pictures(self):
         self.write("a.png", png(8, 8, lambda x, y: (9 * x, 9 * y, 77)))

@@ -93,6 +93,18 @@ class Spread(BiScaleTest):
         self.assertGreater(pictures["off"], pictures["interreflected"])
         self.assertGreater(pictures["interreflected"], pictures["shadowed"])
 
+    def test_the_choice_of_transfer_is_that_switch(self):
+        self.rtt()
+        self.spread("--ground", "--keep-shadowed")
+        render = ("render", "ball.glb", "--light", "disc:40,35,30,4", "--size", "64", "--exposure",
+                  0, "--backend", "cpu", "-o")
+        for macro, transfer in (("off", "unshadowed"), ("shadowed", "shadowed"),
+                                ("interreflected", "interreflected")):
+            # The ground is no bi-scale surface: it follows --transfer alone.
+            self.run_tool(*render, "macro.png", "--macro", macro, "--transfer", transfer)
+            self.run_tool(*render, "both.png", "--transfer", transfer)
+            self.run_tool("compare", "macro.png", "both.png", "--fail-above", "difference=0.02")
+
     def test_what_was_not_baked_cannot_be_shown(self):
         self.rtt()
         self.spread("--transfer", "shadowed")
