@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/extension.h"
 
 namespace lambent::tool {
 
@@ -72,9 +73,7 @@ std::string formatSize(const Size& size) {
 }
 
 std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return extension;
+  return file::extensionOf(path);
 }
 
 Status checkOutput(const std::filesystem::path& path,

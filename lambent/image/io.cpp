@@ -1,25 +1,17 @@
 #include "lambent/image/io.h"
 
-#include <algorithm>
-#include <cctype>
 #include <new>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/extension.h"
 #include "lambent/image/formats.h"
 
 namespace lambent::image {
 namespace {
 
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 Result<std::vector<std::byte>> encode(const Image& image, const std::filesystem::path& path,
                                       const WriteOptions& options) {
-  const std::string extension = extensionOf(path);
+  const std::string extension = file::extensionOf(path);
   if (extension == ".exr") return formats::writeExr(image, path.string(), options);
   if (extension == ".hdr") return formats::writeHdr(image);
   return formats::writePng(image, path.string());
@@ -85,7 +77,7 @@ Result<Image> readLayer(const std::filesystem::path& path, std::string_view laye
 }
 
 Status checkWritableFormat(const std::filesystem::path& path) {
-  const std::string extension = extensionOf(path);
+  const std::string extension = file::extensionOf(path);
   if (extension == ".exr" || extension == ".hdr" || extension == ".png") return Status::ok();
   return report::badUsage(path.string() + ": pictures are written as .exr, .hdr or .png, not " +
                           (extension.empty() ? "without an extension" : "as " + extension));

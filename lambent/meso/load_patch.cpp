@@ -1,10 +1,10 @@
 #include "lambent/meso/load_patch.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/extension.h"
 #include "lambent/image/decode.h"
 #include "lambent/image/io.h"
 #include "lambent/meso/check_tiling.h"
@@ -16,13 +16,6 @@
 namespace lambent::meso {
 
 namespace {
-
-std::string extensionOf(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 Vec3 patchFromYUp(const Vec3& p) {
   return Vec3(p.x(), -p.z(), p.y());
@@ -117,7 +110,7 @@ Result<scene::Texture> readColor(const std::filesystem::path& path) {
 
 Result<Patch> loadHeights(const std::filesystem::path& path, const PatchFileOptions& options,
                           Findings& findings) {
-  const bool isPng = extensionOf(path) == ".png";
+  const bool isPng = file::extensionOf(path) == ".png";
   Result<HeightField> read = readHeights(path, isPng);
   if (!read) return read.error();
   HeightField field = std::move(*read);
@@ -182,7 +175,7 @@ Result<Patch> loadPatch(const std::filesystem::path& path, const PatchFileOption
                         Findings& findings) {
   if (!(options.blend >= 0.0f && options.blend <= 0.5f))
     return report::badUsage("blending reaches over 0 to 0.5 of the period");
-  const std::string extension = extensionOf(path);
+  const std::string extension = file::extensionOf(path);
   if (extension == ".png" || extension == ".exr") return loadHeights(path, options, findings);
   if (!options.color.empty())
     return report::badUsage(path.string() +

@@ -1,10 +1,9 @@
 #include "lambent/scene_io/load.h"
 
-#include <algorithm>
-#include <cctype>
 #include <new>
 #include <string>
 
+#include "lambent/file/extension.h"
 #include "lambent/scene_io/gltf_read.h"
 #include "lambent/scene_io/obj.h"
 #include "lambent/scene_io/ply.h"
@@ -13,9 +12,7 @@ namespace lambent::scene_io {
 namespace {
 
 Result<LoadedScene> loadByExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string extension = file::extensionOf(path);
   if (extension == ".glb" || extension == ".gltf") {
     const Result<GltfFile> file = GltfFile::open(path);
     if (!file) return file.error();
