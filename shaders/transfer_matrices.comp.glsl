@@ -1,12 +1,13 @@
 // Radiance that reaches receivers, M L, times a factor for each row. Glossy: convolved with their
 // lobe, α_i G_i (M L)_i k (sloan2002precomputed eq. 9 and 12). Under meso-structure: the factors are
-// the scales of its texture's coefficients (sloan2003biscale eq. 4). One invocation for
-// each receiver and row.
+// the scales of its texture's coefficients (sloan2003biscale eq. 4). One invocation for each receiver
+// and row.
+//
+// Before this text stands: numbers.glsl.
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 1) readonly buffer Light { float light[]; };  // [receiver or one][used][3]
-layout(std430, binding = 2) writeonly buffer Lit { float lit[]; };     // [receiver][row][3]
+layout(std430, binding = 2) writeonly buffer Lit { float lit[]; };         // [receiver][row][3]
 layout(std430, binding = 3) readonly buffer Factors { float factors[]; };  // [row]
 
 uniform uint begin;      // the first receiver of the chunk that this dispatch is for
@@ -16,27 +17,15 @@ uniform uint channels;   // 1 or 3
 uniform uint rows;
 uniform uint rowsUsed;  // of them, the first
 uniform uint stride;    // numbers of a receiver in the output, 3 · rowsUsed at least
-uniform uint columns;
-uniform uint used;  // of the columns, as many as the light has
-uniform uint lightStride;  // numbers of a receiver's light; 0: all have the same
 uniform vec3 reflectance;
 
 void main() {
   uint p = gl_GlobalInvocationID.x / rowsUsed, i = gl_GlobalInvocationID.x % rowsUsed;
   if (p >= receivers) return;
-  uint base = ((begin + p) * channels * rows + i) * columns;
-  uint nextChannel = rows * columns;
-  vec3 sum = vec3(0.0);
-  for (uint j = 0u; j < used; ++j) {
-    uint from = p * lightStride + 3u * j;
-    vec3 l = vec3(light[from], light[from + 1u], light[from + 2u]);
-    vec3 m = vec3(number(base + j));
-    if (channels == 3u) {
-      m.y = number(base + nextChannel + j);
-      m.z = number(base + 2u * nextChannel + j);
-    }
-    sum += m * l;
-  }
+  uint row = (begin + p) * channels * rows + i;
+  vec3 sum = product(row, p);
+  if (channels == 3u)
+    sum = vec3(sum.x, product(row + rows, p).y, product(row + 2u * rows, p).z);
   sum *= reflectance * factors[i];
   uint at = (first + begin + p) * stride + 3u * i;
   lit[at] = sum.x;

@@ -4,6 +4,9 @@
 #include <bit>
 #include <cassert>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "lambent/render/shader_sources.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
@@ -26,45 +29,75 @@ constexpr std::size_t kStreamedBytes = std::size_t(32) << 20;  // of transfer on
 constexpr std::size_t kBlendedBytes = std::size_t(16) << 20;   // of a field's light at receivers
 constexpr std::size_t kMostInvocations = 65535 * 64;           // every GL takes as many work groups
 
+std::size_t bytesOf(Encoding encoding) {
+  return encoding == Encoding::Snorm8 ? 1 : encoding == Encoding::Float16 ? 2 : 4;
+}
+
+/// Words of one row of `columns` numbers.
+std::size_t rowWords(Encoding encoding, int columns) {
+  return (std::size_t(columns) * bytesOf(encoding) + 3) / 4;
+}
+
+/// The rows of the named receivers, each filled up to a whole word.
 template <class Number>
-std::vector<Number> gather(const std::vector<Number>& numbers, std::size_t each,
-                           std::span<const std::uint32_t> receivers) {
-  std::vector<Number> chunk(receivers.size() * each);
-  for (std::size_t p = 0; p < receivers.size(); ++p)
-    std::copy_n(numbers.begin() + receivers[p] * each, each, chunk.begin() + p * each);
+Buffer gatherRows(const std::vector<Number>& numbers, std::size_t rows, std::size_t columns,
+                  std::span<const std::uint32_t> receivers) {
+  const std::size_t perWord = 4 / sizeof(Number);
+  const std::size_t filled = (columns + perWord - 1) / perWord * perWord;
+  std::vector<Number> chunk(receivers.size() * rows * filled);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 256),
+                    [&](const auto& range) {
+                      for (std::size_t p = range.begin(); p < range.end(); ++p)
+                        for (std::size_t row = 0; row < rows; ++row)
+                          std::copy_n(numbers.data() + (receivers[p] * rows + row) * columns,
+                                      columns, chunk.data() + (p * rows + row) * filled);
+                    });
+  return makeBuffer(chunk);
+}
+
+/// rows: of one receiver, all channels.
+Relit::Chunk upload(const Numbers& numbers, std::size_t rows, std::size_t columns,
+                    std::span<const std::uint32_t> receivers) {
+  Relit::Chunk chunk;
+  chunk.count = receivers.size();
+  switch (numbers.encoding) {
+    case Encoding::Float16:
+      chunk.numbers = gatherRows(numbers.half, rows, columns, receivers);
+      break;
+    case Encoding::Float32:
+      chunk.numbers = gatherRows(numbers.single, rows, columns, receivers);
+      break;
+    case Encoding::Snorm8: {
+      chunk.numbers = gatherRows(numbers.byte, rows, columns, receivers);
+      std::vector<float> scales;
+      scales.reserve(receivers.size() * rows);
+      for (const std::uint32_t receiver : receivers)
+        for (std::size_t row = 0; row < rows; ++row)
+          scales.push_back(numbers.scales[(receiver * rows + row) * columns / numbers.block]);
+      chunk.scales = makeBuffer(scales);
+      break;
+    }
+  }
   return chunk;
 }
 
-Relit::Chunk upload(const Numbers& numbers, std::size_t each,
-                    std::span<const std::uint32_t> receivers) {
-  switch (numbers.encoding) {
-    case Encoding::Float16:
-      return {makeBuffer(gather(numbers.half, each, receivers)), {}, 0, 0, 0};
-    case Encoding::Snorm8:
-      return {makeBuffer(gather(numbers.byte, each, receivers)),
-              makeBuffer(gather(numbers.scales, each / numbers.block, receivers)), numbers.block, 0,
-              0};
-    case Encoding::Float32:
-      break;
-  }
-  return {makeBuffer(gather(numbers.single, each, receivers)), {}, 0, 0, 0};
-}
-
-/// Numbers go up in chunks of receivers, and so do scales. Where a scale spans several receivers:
-/// the numbers as floats; empty otherwise.
-Numbers asFloatsIfScalesSpan(const Numbers& numbers, std::size_t each) {
-  if (numbers.encoding != Encoding::Snorm8 || each % numbers.block == 0) return {};
+/// On the GPU a row of bytes has one scale. Where a stored row has several: the numbers as floats;
+/// empty otherwise.
+Numbers asFloatsIfScalesDiffer(const Numbers& numbers, std::size_t columns) {
+  if (numbers.encoding != Encoding::Snorm8 || numbers.block % columns == 0) return {};
   return encode::encode(encode::decode(numbers), Encoding::Float32);
 }
 
-std::size_t bytesOf(Encoding encoding) {
-  return encoding == Encoding::Snorm8 ? 1 : encoding == Encoding::Float16 ? 2 : 4;
+/// Coefficients of a light as shaders/numbers.glsl reads them: filled up to four.
+int filledUp(int coefficients) {
+  return (coefficients + 3) / 4 * 4;
 }
 
 std::vector<float> interleaved(const sh::RgbCoefficients& light) {
   std::vector<float> result;
   for (int k = 0; k < sh::coefficientCount(light.bands); ++k)
     for (int c = 0; c < 3; ++c) result.push_back(light.channel(c)[k]);
+  result.resize(3 * std::size_t(filledUp(sh::coefficientCount(light.bands))));
   return result;
 }
 
@@ -114,15 +147,17 @@ Status TransferOnGpu::setBlend(Relit& relit, std::span<const capture::BlendWeigh
 }
 
 Result<const Program*> TransferOnGpu::program(ProductShape::Kind kind, Encoding encoding) {
-  const std::pair key(kind, encoding);
+  const bool field = field_ != 0;
+  const std::tuple key(kind, encoding, field);
   auto found = programs_.find(key);
   if (found == programs_.end()) {
     const char* name = kind == ProductShape::Kind::Vectors ? "transfer_vectors.comp.glsl"
                                                            : "transfer_matrices.comp.glsl";
-    const Program::Stage stage{GL_COMPUTE_SHADER,
-                               name,
-                               {numbersDefine(encoding), std::string(shaderSource("numbers.glsl")),
-                                std::string(shaderSource(name))}};
+    const Program::Stage stage{
+        GL_COMPUTE_SHADER,
+        name,
+        {numbersDefine(encoding), std::string("#define LAMBENT_FIELD ") + (field ? "1" : "0"),
+         std::string(shaderSource("numbers.glsl")), std::string(shaderSource(name))}};
     Result<Program> made = Program::make({&stage, 1});
     if (!made) return made.error();
     found = programs_.emplace(key, std::move(*made)).first;
@@ -136,19 +171,19 @@ Status TransferOnGpu::dispatch(const Relit& relit, const Relit::Chunk& chunk) {
   const Program& product = **found;
   const ProductShape& shape = relit.shape;
   const int used = std::min(shape.columns, sh::coefficientCount(bands_));
-  product.set("block", unsigned(chunk.block));
+  const int made = filledUp(used);
   product.set("channels", unsigned(shape.channels));
   product.set("rows", unsigned(shape.rows));
   product.set("rowsUsed", unsigned(shape.rowsUsed));
   product.set("stride", unsigned(shape.stride));
-  product.set("columns", unsigned(shape.columns));
-  product.set("used", unsigned(used));
+  product.set("rowWords", unsigned(rowWords(shape.encoding, shape.columns)));
+  product.set("usedWords", unsigned(rowWords(shape.encoding, used)));
   product.set("reflectance", shape.reflectance.x(), shape.reflectance.y(), shape.reflectance.z());
-  product.set("lightStride", unsigned(field_ ? 3 * used : 0));
+  product.set("lightStride", unsigned(3 * made));
   // A field is first blended for as many receivers as there is room for.
   const std::size_t most =
-      field_ ? std::clamp<std::size_t>(blendedBytes_ / (3 * sizeof(float) * std::size_t(used)), 1,
-                                       kMostInvocations / std::size_t(used))
+      field_ ? std::clamp<std::size_t>(blendedBytes_ / (3 * sizeof(float) * std::size_t(made)), 1,
+                                       kMostInvocations / std::size_t(made))
              : chunk.count;
   for (std::size_t begin = 0; begin < chunk.count; begin += most) {
     const std::size_t count = std::min(most, chunk.count - begin);
@@ -157,12 +192,13 @@ Status TransferOnGpu::dispatch(const Relit& relit, const Relit::Chunk& chunk) {
       blend_->set("first", unsigned(chunk.first + begin));
       blend_->set("coefficients", unsigned(sh::coefficientCount(bands_)));
       blend_->set("used", unsigned(used));
+      blend_->set("made", unsigned(made));
       glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, field_);
       glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, relit.blend.name());
       glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, blended_.name());
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
       blend_->use();
-      glDispatchCompute(GLuint((count * std::size_t(used) + 63) / 64), 1, 1);
+      glDispatchCompute(GLuint((count * std::size_t(made) + 63) / 64), 1, 1);
       glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     product.set("begin", unsigned(begin));
@@ -187,8 +223,9 @@ Status TransferOnGpu::relight(const Relit& relit) {
 
 Status TransferOnGpu::multiply(Relit& relit, const Numbers& transfer) {
   const bool keep = residence_ == Residence::Keep;
-  const std::size_t each = relit.shape.each();
-  const Numbers decoded = asFloatsIfScalesSpan(transfer, each);
+  const auto columns = std::size_t(relit.shape.columns);
+  const std::size_t rows = std::size_t(relit.shape.channels) * std::size_t(relit.shape.rows);
+  const Numbers decoded = asFloatsIfScalesDiffer(transfer, columns);
   const Numbers& numbers = decoded.empty() ? transfer : decoded;
   relit.shape.encoding = numbers.encoding;
   if (const Result<const Program*> made = program(relit.shape.kind, numbers.encoding); !made)
@@ -200,15 +237,14 @@ Status TransferOnGpu::multiply(Relit& relit, const Numbers& transfer) {
 
   const std::size_t room = keep ? largestBlock_ : std::min(kStreamedBytes, largestBlock_);
   const std::size_t most =
-      std::clamp<std::size_t>(room / (each * bytesOf(numbers.encoding)), 1,
-                              kMostInvocations / std::size_t(relit.shape.rowsUsed));
+      std::clamp<std::size_t>(room / (rows * rowWords(numbers.encoding, relit.shape.columns) * 4),
+                              1, kMostInvocations / std::size_t(relit.shape.rowsUsed));
   const std::span<const std::uint32_t> receivers = relit.receivers;
   for (std::size_t first = 0; first < receivers.size(); first += most) {
     const auto named = receivers.subspan(first, std::min(most, receivers.size() - first));
-    Relit::Chunk chunk = upload(numbers, each, named);
+    Relit::Chunk chunk = upload(numbers, rows, columns, named);
     if (Status s = checkGl("uploading transfer"); !s) return s;
     chunk.first = first;
-    chunk.count = named.size();
     if (keep)
       relit.chunks.push_back(std::move(chunk));
     else if (Status s = dispatch(relit, chunk); !s)

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lambent/capture/blending.h"
@@ -29,8 +30,6 @@ struct ProductShape {
   int channels = 1, rows = 1, columns = 0;
   int rowsUsed = 1, stride = 3;  ///< numbers of a receiver in the output
   Rgb reflectance = Rgb::Ones();
-  /// Numbers of one receiver's transfer.
-  std::size_t each() const { return std::size_t(channels) * rows * columns; }
 };
 
 /// Some receivers of a mesh, the products of their transfer with the light, and what it takes to
@@ -38,7 +37,6 @@ struct ProductShape {
 struct Relit {
   struct Chunk {
     Buffer numbers, scales;            ///< as shaders/numbers.glsl reads them; scales of bytes only
-    std::size_t block = 0;             ///< numbers that share a scale
     std::size_t first = 0, count = 0;  ///< receivers
   };
   std::vector<std::uint32_t> receivers;  ///< the mesh's numbers of them
@@ -105,7 +103,7 @@ class TransferOnGpu {
   Buffer blended_;  ///< the field at the receivers of one dispatch: [receiver][coefficient][3]
   std::size_t blendedBytes_ = 0;
   std::optional<Program> blend_;
-  std::map<std::pair<ProductShape::Kind, encode::Encoding>, Program> programs_;
+  std::map<std::tuple<ProductShape::Kind, encode::Encoding, bool>, Program> programs_;  ///< … field
 };
 
 /// Bytes that lobe() makes for each receiver.
