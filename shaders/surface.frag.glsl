@@ -2,7 +2,8 @@
 //
 // Before this text stand: #define LAMBENT_KIND: 0 transfer at the vertices, 1 at texels, 2 a mirror,
 // 3 black; LAMBENT_LOBE_GROUPS, LAMBENT_INTERPOLATED and LAMBENT_EACH_GROUP as in surface.vert.glsl
-// and, if there is a lobe, sh.glsl; base_color.glsl; environment.glsl for mirrors.
+// and, if there is a lobe, harmonics() written out (harmonics_source.h); base_color.glsl;
+// environment.glsl for mirrors.
 
 struct Vertex {
   vec4 positionU;

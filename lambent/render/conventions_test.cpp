@@ -15,6 +15,7 @@
 
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_objects.h"
+#include "lambent/render/harmonics_source.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/render/test_shader.h"
 #include "lambent/sh/basis.h"
@@ -50,11 +51,17 @@ std::vector<Vec3> directions() {
   return result;
 }
 
-std::vector<float> harmonicsOnGpu(const std::vector<Vec3>& at, int bands) {
-  const Program::Stage stage{GL_COMPUTE_SHADER,
-                             "harmonics",
-                             {"#define LAMBENT_BANDS " + std::to_string(bands),
-                              std::string(shaderSource("sh.glsl")), kEvaluate}};
+enum class Source { Loops, WrittenOut };
+
+std::vector<float> harmonicsOnGpu(const std::vector<Vec3>& at, int bands,
+                                  Source source = Source::Loops) {
+  const Program::Stage stage{
+      GL_COMPUTE_SHADER,
+      "harmonics",
+      {source == Source::WrittenOut ? harmonicsSource(bands)
+                                    : "#define LAMBENT_BANDS " + std::to_string(bands) + "\n" +
+                                          std::string(shaderSource("sh.glsl")),
+       kEvaluate}};
   const Result<Program> program = Program::make({&stage, 1});
   if (!program) {
     ADD_FAILURE() << program.error().message;
@@ -79,18 +86,19 @@ TEST(ShaderConventions, HarmonicsEqualTheLibrarys) {
   const Result<GlContext> context = GlContext::create();
   ASSERT_TRUE(context) << context.error().message;
   const std::vector<Vec3> at = directions();
-  for (int bands = 1; bands <= sh::kMaxBands; ++bands) {
-    const std::vector<float> values = harmonicsOnGpu(at, bands);
-    ASSERT_FALSE(values.empty());
-    const int n = sh::coefficientCount(bands);
-    std::vector<double> expected(n);
-    for (std::size_t p = 0; p < at.size(); ++p) {
-      sh::evaluate(bands, Vec3d(at[p].cast<double>()), std::span<double>(expected));
-      for (int i = 0; i < n; ++i)
-        ASSERT_NEAR(values[p * n + i], expected[i], 1e-5)
-            << bands << " bands, coefficient " << i << ", direction " << at[p].transpose();
+  for (const Source source : {Source::Loops, Source::WrittenOut})
+    for (int bands = 1; bands <= sh::kMaxBands; ++bands) {
+      const std::vector<float> values = harmonicsOnGpu(at, bands, source);
+      ASSERT_FALSE(values.empty());
+      const int n = sh::coefficientCount(bands);
+      std::vector<double> expected(n);
+      for (std::size_t p = 0; p < at.size(); ++p) {
+        sh::evaluate(bands, Vec3d(at[p].cast<double>()), std::span<double>(expected));
+        for (int i = 0; i < n; ++i)
+          ASSERT_NEAR(values[p * n + i], expected[i], 1e-5)
+              << bands << " bands, coefficient " << i << ", direction " << at[p].transpose();
+      }
     }
-  }
 }
 
 // A table that needs no other code to be right.
@@ -147,11 +155,12 @@ TEST(ConventionTable, LibraryHasItsHarmonics) {
 TEST(ConventionTable, ShadersHaveItsHarmonics) {
   const Result<GlContext> context = GlContext::create();
   ASSERT_TRUE(context) << context.error().message;
-  for (const Json& entry : table().at("harmonics")) {
-    const std::vector<float> y = harmonicsOnGpu({vectorOf(entry.at("direction")).cast<float>()},
-                                                entry.at("bands").get<int>());
-    expectNumbers(std::vector<double>(y.begin(), y.end()), entry.at("values"), 1e-5, "shader");
-  }
+  for (const Source source : {Source::Loops, Source::WrittenOut})
+    for (const Json& entry : table().at("harmonics")) {
+      const std::vector<float> y = harmonicsOnGpu({vectorOf(entry.at("direction")).cast<float>()},
+                                                  entry.at("bands").get<int>(), source);
+      expectNumbers(std::vector<double>(y.begin(), y.end()), entry.at("values"), 1e-5, "shader");
+    }
 }
 
 TEST(ConventionTable, LibraryTurnsCoefficientsAsItDoes) {

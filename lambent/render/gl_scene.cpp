@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "lambent/radiometry/tone.h"
+#include "lambent/render/harmonics_source.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/shade/macro_transport.h"
 #include "lambent/shade/rtt_pyramid.h"
@@ -114,10 +115,7 @@ Status GlScene::addProgram(SurfaceKind kind, int lobeBands) {
       int(kind), groups, interpolated);
   for (int i = 0; i < groups; ++i) defines += fmt::format(" DO({})", i);
   Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {defines}};
-  if (lobeBands > 0) {
-    fragment.parts.push_back(fmt::format("#define LAMBENT_BANDS {}", lobeBands));
-    fragment.parts.emplace_back(shaderSource("sh.glsl"));
-  }
+  if (lobeBands > 0) fragment.parts.push_back(harmonicsSource(lobeBands));
   fragment.parts.emplace_back(shaderSource("base_color.glsl"));
   if (kind == SurfaceKind::Mirror) {
     fragment.parts.push_back(environmentDefines());
