@@ -123,7 +123,7 @@ for (const [kind, { make, relief }] of Object.entries(kinds)) {
     const common = ["--view", `${stem}.json`, "--size", `${kSize}x${kSize}`, "--quiet"];
     for (const backend of ["cpu", "gl"])
       lambent("render", asset, ...common, "--backend", backend, "-o", `${stem}-${backend}.png`);
-    lambent("reference", asset, ...common, "--spp", 32, "-o", `${stem}-traced.png`);
+    lambent("reference", asset, ...common, "--spp", 12, "-o", `${stem}-traced.png`);
     if (!(await page.evaluate((json) => window.lambent.showView(json), state)))
       fail("the page did not take the view");
     await page.screenshot({ path: join(folder, `${stem}-web.png`) });

@@ -33,7 +33,7 @@ void add(Scene& scene, const char* name, Mesh mesh, Material material) {
 
 Result<asset::Asset> stillLife() {
   Scene scene;
-  add(scene, "plinth", plinth(1.5f, 0.16f, 120, 48), matt("plaster", Rgb(0.42f, 0.40f, 0.38f)));
+  add(scene, "plinth", plinth(1.5f, 0.16f, 104, 44), matt("plaster", Rgb(0.42f, 0.40f, 0.38f)));
 
   Material glaze = matt("glaze", Rgb(0.02f, 0.13f, 0.15f));
   glaze.glossy = Rgb(0.20f, 0.21f, 0.21f);
@@ -49,10 +49,10 @@ Result<asset::Asset> stillLife() {
                                               {0.24f, 0.13f},
                                               {0.185f, 0.035f},
                                               {0.18f, 0.004f}},
-                                             26))
+                                             23))
     jar.push_back(p);
   jar.insert(jar.end(), {{0.17f, 0.002f}, {0.17f, 0.002f}, {0.0f, 0.002f}});
-  add(scene, "jar", scene::translated(turned(jar, 44), Vec3(-0.50f, 0, -0.60f)), glaze);
+  add(scene, "jar", scene::translated(turned(jar, 38), Vec3(-0.50f, 0, -0.60f)), glaze);
 
   const auto stone = [](float radius, const Vec3& shape, const Vec3& at, float turn) {
     Mesh mesh = scene::scaled(scene::icosphere(radius, 3), shape);
@@ -116,7 +116,7 @@ Result<asset::Asset> wovenKnot() {
   cloth.glossy = Rgb::Constant(0.10f);
   cloth.width = 0.90f;
   meso::RttOptions structure;
-  structure.width = structure.height = 40;
+  structure.width = structure.height = 36;
   structure.views = 5;
   structure.bands = 4;
   structure.directions = 384;

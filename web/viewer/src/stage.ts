@@ -60,7 +60,9 @@ export class Stage {
       stencil: false,
       powerPreference: "high-performance",
     });
-    this.renderer.autoClear = true;
+    // Asking each program for its errors would make the driver compile one after the other;
+    // shaderErrors() asks once all are on their way.
+    this.renderer.debug.checkShaderErrors = false;
     this.renderer.setClearColor(0x000000, 0);
     const extensions = this.renderer.getContext();
     this.floatTextures = extensions.getExtension("OES_texture_float_linear") !== null;
@@ -221,6 +223,16 @@ export class Stage {
     this.draw(look, [0.5, 0.5], 1);
     this.tone.render(this.renderer, this.accumulator.mean);
     this.accumulator.reset();
+  }
+
+  /** What the driver has against the shaders in use; null: nothing. */
+  shaderErrors(): string | null {
+    const gl = this.renderer.getContext();
+    if (gl.isContextLost()) return null;
+    for (const { program, name } of this.renderer.info.programs ?? [])
+      if (program && !gl.getProgramParameter(program as WebGLProgram, gl.LINK_STATUS))
+        return `${name}: ${gl.getProgramInfoLog(program as WebGLProgram) ?? "no reason given"}`;
+    return null;
   }
 
   /** One more sample of a still picture; true once it has all of them. */

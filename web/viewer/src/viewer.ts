@@ -1,6 +1,6 @@
 // What is shown and how it changes: the view, the files behind it, and the frames that show it.
 import { Vector3 } from "three";
-import { loadEnvironment, type ReadFile } from "./environments";
+import { loadEnvironment, type LoadedEnvironment, type ReadFile } from "./environments";
 import { FrameGraph } from "./frame_graph";
 import { listen } from "./gestures";
 import { loadAsset } from "./load_asset";
@@ -56,6 +56,7 @@ export class Viewer {
   private lastChange = 0;
   private lastFrame = 0;
   private waiting: (() => void)[] = [];
+  private drawing: (() => void)[] = [];
   private lost = false;
   private opening = 0;
 
@@ -194,23 +195,33 @@ export class Viewer {
   async openAsset(index: number, view?: ViewState): Promise<boolean> {
     const opened = this.assets[index]!;
     return this.attempt(`Loading ${opened.name}`, async (current) => {
-      const bytes = await opened.read();
-      this.loading.show(`Reading ${opened.name}`, null);
-      const loaded = await loadAsset(bytes, opened.name);
-      if (!current()) return loaded.asset.dispose();
-      const before = this.view;
-      const next = view ?? this.viewOf(opened.view, this.asset < 0 ? undefined : before);
-      try {
-        await this.useEnvironment(next.environment.source);
-      } catch (error) {
-        loaded.asset.dispose();
-        throw error;
+      const next = view ?? this.viewOf(opened.view, this.asset < 0 ? undefined : this.view);
+      const reading = async () => {
+        const bytes = await opened.read();
+        this.loading.show(`Reading ${opened.name}`, null);
+        return loadAsset(bytes, opened.name);
+      };
+      const [asset, light] = await Promise.allSettled([
+        reading(),
+        this.readEnvironment(next.environment.source),
+      ]);
+      if (asset.status === "rejected" || light.status === "rejected" || !current()) {
+        if (asset.status === "fulfilled") asset.value.asset.dispose();
+        if (light.status === "fulfilled") light.value?.dispose();
+        for (const each of [asset, light]) if (each.status === "rejected") throw each.reason;
+        return;
       }
+      const loaded = asset.value;
+      if (light.value !== null) this.stage.setEnvironment(light.value);
       this.stage.setAsset(loaded);
       this.asset = index;
       this.view = next;
       this.disc = Math.min(this.disc, next.discs.length - 1);
       this.touch();
+      await this.drawn();
+      const errors = this.stage.shaderErrors();
+      if (errors !== null)
+        throw new Error(`The graphics driver cannot draw ${opened.name}: ${errors}`);
     });
   }
   /** Shows an environment of the list. */
@@ -297,6 +308,11 @@ export class Viewer {
     }
     return view;
   }
+  /** null: it is there already. */
+  private async readEnvironment(source: string): Promise<LoadedEnvironment | null> {
+    if (this.stage.environment?.source === source) return null;
+    return loadEnvironment(source, this.files, this.stage.floatTextures);
+  }
   private async useEnvironment(source: string, anew = false): Promise<void> {
     if (!anew && this.stage.environment?.source === source) return;
     this.stage.setEnvironment(
@@ -361,8 +377,16 @@ export class Viewer {
       this.done = this.stage.refine(this.camera(), this.view.samples);
     }
     this.sky.show(this.view, this.stage.environment, this.disc);
+    for (const resolve of this.drawing.splice(0)) requestAnimationFrame(() => resolve());
     if (!this.done || this.moved) return this.schedule();
     for (const resolve of this.waiting.splice(0)) resolve();
+  }
+  /** Resolves once the next frame is on the screen. */
+  drawn(): Promise<void> {
+    return new Promise((resolve) => {
+      this.drawing.push(resolve);
+      this.schedule();
+    });
   }
   /** Resolves once all samples of a still picture are shown. */
   settled(): Promise<void> {
