@@ -12,7 +12,9 @@
 #include "apps/lambent/help.h"
 #include "apps/lambent/verbs.h"
 #include "apps/lambent/web_server.h"
+#include "apps/viewer/captured_light.h"
 #include "apps/viewer/viewer.h"
+#include "lambent/capture/moving_scene.h"
 
 namespace lambent::tool {
 
@@ -22,6 +24,8 @@ struct Arguments {
   std::filesystem::path asset, state, script, screenshot;
   std::vector<std::string> environments;
   Size size{1280, 800};
+  std::string surroundings;
+  int lightSamples = 8;
   bool hidden = false, noPanel = false;
   bool web = false, noBrowser = false;
   int port = 0;
@@ -37,6 +41,8 @@ Examples:
       Draws the picture, saves it and ends.
   lambent view bunny.glb sky.exr --web
       The same in a browser on this machine; nothing outside it can see the page.
+  lambent view bunny.glb --surroundings demo
+      Lamps and a bar go about it, and light it from near: light is captured at 8 of its points.
   xvfb-run -a lambent view bunny.glb --script tour.txt
       A session without anybody: for tests and for pictures.
 
@@ -46,6 +52,18 @@ Examples:
 Result<viewer::Script> scriptFor(const std::filesystem::path& screenshot) {
   return viewer::parseScript(fmt::format("screenshot \"{}\"\n", screenshot.string()),
                              "--screenshot");
+}
+
+Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const Arguments& arguments,
+                                                             Console& console) {
+  if (arguments.surroundings.empty()) return std::unique_ptr<viewer::Surroundings>();
+  if (arguments.surroundings == "demo")
+    return std::unique_ptr<viewer::Surroundings>(new viewer::CapturedLight(arguments.lightSamples));
+  auto loaded = capture::loadMovingScene(arguments.surroundings);
+  if (!loaded) return loaded.error();
+  console.report(loaded->findings);
+  return std::unique_ptr<viewer::Surroundings>(
+      new viewer::CapturedLight(std::move(loaded->scene), arguments.lightSamples));
 }
 
 Status runView(const Arguments& arguments, Console& console) {
@@ -75,6 +93,9 @@ Status runView(const Arguments& arguments, Console& console) {
     if (!script) return script.error();
     options.script = std::move(*script);
   }
+  auto surroundings = surroundingsOf(arguments, console);
+  if (!surroundings) return surroundings.error();
+  options.surroundings = std::move(*surroundings);
   if (Status s = viewer::view(std::move(options)); !s) return s;
   if (!arguments.screenshot.empty())
     console.finish(
@@ -105,6 +126,20 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
   app->add_flag("--no-panel", arguments->noPanel,
                 "Begin with the picture alone; Tab shows the panel")
       ->group("View");
+  CLI::Option* surroundings =
+      app->add_option(
+             "--surroundings", arguments->surroundings,
+             "Lamps (what emits) and occluders (what does not) near the asset, whose light "
+             "is captured in every frame: a scene's file, or demo for some that move")
+          ->option_text("SCENE|demo")
+          ->group("View");
+  app->add_option("--light-samples", arguments->lightSamples,
+                  "At how many points of the asset that light is captured")
+      ->check(CLI::Range(1, 64))
+      ->option_text("N")
+      ->capture_default_str()
+      ->needs(surroundings)
+      ->group("View");
   CLI::Option* screenshot = app->add_option("--screenshot", arguments->screenshot,
                                             "Draw the picture, of --size, save it and end")
                                 ->option_text("OUT.png")
@@ -128,7 +163,7 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
   app->add_flag("--no-browser", arguments->noBrowser, "Print the page's address and open nothing")
       ->needs(web)
       ->group("Page");
-  web->excludes(script)->excludes(screenshot);
+  web->excludes(script)->excludes(screenshot)->excludes(surroundings);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runView(*arguments, console); }};
 }

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "apps/viewer/surroundings.h"
 #include "lambent/capture/moving_scene.h"
@@ -15,32 +16,32 @@ class CapturedLight final : public Surroundings {
  public:
   /// The lamps of capture::demoSurroundings, fitted to whatever asset is shown.
   explicit CapturedLight(int samples) : samples_(samples) {}
-  /// Those of a scene. 1 … 64 points to sample light at.
   CapturedLight(capture::MovingScene scene, int samples)
       : given_(std::move(scene)), samples_(samples) {}
 
   Status attach(render::LiveRenderer& renderer, const asset::Asset& asset) override;
-  Status sampleAt(int points, render::LiveRenderer& renderer, const asset::Asset& asset) override;
-  int samples() const override { return samples_; }
-  Result<bool> advance(render::LiveRenderer& renderer, const view::ViewState& state,
-                       const sh::RgbCoefficients& worldLight, double seconds) override;
-  scene::Box bounds() const override { return bounds_; }
+  void elapse(double seconds) override { time_ += seconds; }
+  Result<bool> light(render::LiveRenderer& renderer, const view::ViewState& state,
+                     const sh::RgbCoefficients& worldLight) override;
+  scene::Box bounds() const override { return capture::bounds(scene_, time_); }
   Status draw(render::LiveRenderer& renderer, const PixelSize& size) override;
+  int samples() const override { return samples_; }
+  void setSamples(int count) override { samples_ = count; }
 
  private:
-  std::optional<capture::MovingScene> given_;
-  std::optional<render::LightCapture> capture_;
-  scene::Box bounds_;  ///< of all places that bodies come to
-  int samples_ = 8;
-  double time_ = 0;
-  /// What the light buffer is filled for.
-  struct Filled {
-    double time;
+  /// What the light depends on.
+  struct Conditions {
+    double time = 0;
     Mat4 worldFromAsset;
     std::vector<float> worldLight;
-    bool operator==(const Filled&) const = default;
   };
-  std::optional<Filled> filled_;
+
+  std::optional<capture::MovingScene> given_;  ///< none: the demonstration
+  capture::MovingScene scene_;
+  int samples_;
+  double time_ = 0;
+  std::optional<render::LightCapture> capture_;
+  std::optional<Conditions> captured_;
 };
 
 }  // namespace lambent::viewer

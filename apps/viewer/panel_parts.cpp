@@ -70,6 +70,17 @@ void drawTransfer(Session& session) {
   }
 }
 
+/// What moves, and at how many points of the object its light is captured.
+void drawSurroundings(Session& session) {
+  ImGui::Checkbox("It moves", &session.desk.moveSurroundings);
+  int samples = session.stage.lightSamples();
+  ImGui::PushItemWidth(-ImGui::GetFontSize() * 6.2f);
+  ImGui::SliderInt("light at", &samples, 1, 32, "%d points");
+  ImGui::PopItemWidth();
+  if (samples != session.stage.lightSamples())
+    session.notices.check(session.stage.setLightSamples(samples));
+}
+
 void drawGraph(const FrameTimes& times) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 4.0f * ImGui::GetFontSize());

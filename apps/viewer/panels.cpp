@@ -57,6 +57,7 @@ void Panels::draw(Session& session, const FrameTimes& times, const Layout& layou
     drawFiles(session, layout.picture);
     if (section("Picture")) drawPicture(session);
     if (section("Light")) drawLight(session);
+    if (session.stage.hasSurroundings() && section("Around it")) drawSurroundings(session);
     if (section("Transfer")) drawAsset(session);
     ImGui::EndChild();
     drawTimes(session, times);

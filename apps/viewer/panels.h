@@ -32,6 +32,7 @@ class Panels {
 // What needs no memory of its own.
 void drawDiscs(Session& session, SkyMap& sky);
 void drawTransfer(Session& session);
+void drawSurroundings(Session& session);
 void drawHelp(Session& session, const Layout& layout);
 void drawRemarks(const Session& session, const Layout& layout);
 void drawGraph(const FrameTimes& times);

@@ -17,6 +17,7 @@ namespace lambent::viewer {
 struct Desk {
   bool panel = true, help = false, askForFile = false;
   bool turnEnvironment = false, turnObject = false;
+  bool moveSurroundings = true;
   bool vsync = true;
   int disc = -1;  ///< the one that is chosen, or −1
   bool quit = false;

@@ -87,6 +87,17 @@ Status Stage::setSurroundings(std::unique_ptr<Surroundings> surroundings) {
   return Status::ok();
 }
 
+void Stage::elapse(double seconds) {
+  if (surroundings_) surroundings_->elapse(seconds);
+}
+
+Status Stage::setLightSamples(int count) {
+  if (!surroundings_ || count == surroundings_->samples()) return Status::ok();
+  surroundings_->setSamples(count);
+  drawn_.reset();
+  return renderer_ ? surroundings_->attach(*renderer_, *asset_->asset) : Status::ok();
+}
+
 scene::Box Stage::bounds(const view::ViewState& state) const {
   return view::movedBox(view::worldFromAsset(state), box_);
 }
@@ -125,7 +136,11 @@ Status Stage::prepare(const view::ViewState& state, const PixelSize& size, bool 
   const bool cheap = state.discs.size() <= 16;
   if (stale && (cheap || !moving || !backdrop_))
     if (Status s = hangBackdrop(state); !s) return s;
-  if (!surroundings_) renderer_->setLight(light_->asset(state));
+  if (surroundings_) {
+    const Result<bool> lit = surroundings_->light(*renderer_, state, light_->world(state));
+    return lit ? Status::ok() : Status(lit.error());
+  }
+  renderer_->setLight(light_->asset(state));
   return Status::ok();
 }
 
@@ -134,14 +149,14 @@ Status Stage::addSample(const view::ViewState& state, const PixelSize& size, con
   render::LiveView view = liveView(state, camera(state, size), unlit);
   if (surroundings_) view.others = surroundings_->bounds();
   if (Status s = renderer_->add(view, place, samples); !s) return s;
-  return surroundings_ ? surroundings_->draw(*renderer_, view, size, place) : Status::ok();
+  return surroundings_ ? surroundings_->draw(*renderer_, size) : Status::ok();
 }
 
 Status Stage::draw(const view::ViewState& state, const PixelSize& size) {
   bool moving = !drawn_ || drawn_->size != size || drawn_->unlit != unlit ||
                 !sameRadiance(drawn_->state, state);
   if (surroundings_) {
-    const Result<bool> moved = surroundings_->advance(*renderer_, state, environment_);
+    const Result<bool> moved = surroundings_->light(*renderer_, state, light_->world(state));
     if (!moved) return moved.error();
     moving = moving || *moved;
   }

@@ -29,6 +29,12 @@ class Stage {
   void setEnvironment(const light::Environment& environment);
   /// What moves around the asset and lights it, or nothing.
   Status setSurroundings(std::unique_ptr<Surroundings> surroundings);
+  bool hasSurroundings() const { return surroundings_ != nullptr; }
+  /// Time goes on for the surroundings, in seconds.
+  void elapse(double seconds);
+  /// At how many points of the asset its light is sampled; 0 without surroundings.
+  int lightSamples() const { return surroundings_ ? surroundings_->samples() : 0; }
+  Status setLightSamples(int count);
 
   bool empty() const { return !asset_; }
   const asset::Asset& asset() const { return *asset_->asset; }

@@ -13,17 +13,23 @@ class Surroundings {
  public:
   virtual ~Surroundings() = default;
 
-  /// Another asset is shown from now on: where light is sampled, and renderer.setLightField(…).
+  /// Another asset is shown from now on, by this renderer: chooses where its light is sampled.
   virtual Status attach(render::LiveRenderer& renderer, const asset::Asset& asset) = 0;
-  /// Before a frame: moves on, fills the light buffer and calls renderer.lightChanged(). True if
-  /// anything moved, so that the picture begins anew.
-  virtual Result<bool> advance(render::LiveRenderer& renderer, const view::ViewState& state,
-                               const light::Environment& environment) = 0;
-  /// In the world, around everything that draw() may draw.
+  /// Time goes on, in seconds.
+  virtual void elapse(double seconds) = 0;
+  /// Before a frame: lights the asset as things stand. `worldLight`: the distant light, in the
+  /// world. True if anything has changed since the last call, so that the picture begins anew.
+  virtual Result<bool> light(render::LiveRenderer& renderer, const view::ViewState& state,
+                             const sh::RgbCoefficients& worldLight) = 0;
+  /// In the world, of all that moves as it stands.
   virtual scene::Box bounds() const = 0;
-  /// After a sample: adds what moves to renderer.framebuffer(), seen through `place` of the pixel.
-  virtual Status draw(render::LiveRenderer& renderer, const render::LiveView& view,
-                      const PixelSize& size, const Vec2& place) = 0;
+  /// After a sample: adds what moves to renderer.framebuffer(), as renderer.clipFromWorld() has it.
+  virtual Status draw(render::LiveRenderer& renderer, const PixelSize& size) = 0;
+
+  /// At how many points of the asset light is sampled. Another number takes effect at the next
+  /// attach().
+  virtual int samples() const = 0;
+  virtual void setSamples(int count) = 0;
 };
 
 }  // namespace lambent::viewer

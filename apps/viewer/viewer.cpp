@@ -53,7 +53,8 @@ constexpr int kLively = 4;
 double Viewer::rest() {
   const bool scripted = script.has_value();
   const Desk& desk = session.desk;
-  const bool still = !desk.turnEnvironment && !desk.turnObject &&
+  const bool moves = desk.moveSurroundings && session.stage.hasSurroundings();
+  const bool still = !desk.turnEnvironment && !desk.turnObject && !moves &&
                      (session.stage.empty() || session.stage.settled());
   if (scripted || !still || lively > 0) {
     window.poll();
@@ -77,6 +78,7 @@ void Viewer::animate(double seconds) {
   // A script counts in frames: one degree each.
   const double degrees = script ? 1.0 : 24.0 * seconds;
   if (session.desk.turnEnvironment) session.turnEnvironment(Vec3d::UnitY(), degrees * kPi / 180.0);
+  if (session.desk.moveSurroundings) session.stage.elapse(seconds);
   if (session.desk.turnObject) session.turnObject(Vec3d::UnitY(), degrees * kPi / 180.0);
 }
 
