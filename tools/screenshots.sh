@@ -10,24 +10,28 @@ lambent=$build/apps/lambent/lambent
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-"$lambent" bake build/inputs/bunny.obj -o "$work/bunny.glb" --directions 2048 --keep-shadowed --quiet
+"$lambent" bake build/inputs/bunny.obj -o "$work/bunny.glb" --directions 2048 --keep-shadowed \
+  --quiet > "$work/log"
 cat > "$work/native.txt" <<EOF
-load "$work/bunny.glb"
-set environment "build/inputs/hdri/sunset.exr"
+set window minimal
 wait 2
-orbit -25 6
+orbit -25 -4
+zoom 1.12
+turn environment y 150
 wait 20
 screenshot-window "$folder/viewer-native.png"
 EOF
 cat > "$work/surroundings.txt" <<EOF
-wait 100
+set window minimal
+zoom 1.6
+wait 75
 key P
 wait 20
 screenshot-window "$folder/viewer-surroundings.png"
 EOF
 xvfb-run -a "$lambent" view "$work/bunny.glb" build/inputs/hdri/sunset.exr \
   --script "$work/native.txt"
-xvfb-run -a "$lambent" view "$work/bunny.glb" uniform:0.08 --surroundings demo \
+xvfb-run -a "$lambent" view "$work/bunny.glb" uniform:0.1 --surroundings demo \
   --script "$work/surroundings.txt"
 LAMBENT_TOOL=$lambent LAMBENT_WEB_MODULES=$build/tests/web/tree/web/three-lambent \
   node tools/screenshots.mjs "$folder"
