@@ -26,13 +26,14 @@ for program in "$build"/bench/lambent_*_bench; do
     "$program" --benchmark_out="$results/$name.csv" --benchmark_out_format=csv
   fi
 done
-# The page, where there is a browser: its driver's packages are fetched by the tests of three-lambent.
-modules=$build/tests/web/tree/web/three-lambent
+# The page, where there is a browser.
 if command -v node > /dev/null && command -v chromium > /dev/null &&
-  [ -d "$modules/node_modules" ] && { [ -z "$filter" ] || [[ web_bench == *"$filter"* ]]; }; then
+  { [ -z "$filter" ] || [[ web_bench == *"$filter"* ]]; }; then
   printf '\n== web_bench\n'
-  LAMBENT_TOOL=$(realpath "$build/apps/lambent/lambent") LAMBENT_WEB_MODULES=$(realpath "$modules") \
-    node bench/web_bench.mjs "$results/web_bench.csv"
+  tree=$(realpath "$build")/tests/web/tree
+  node tests/web/stage.mjs "$PWD" "$tree" web/three-lambent
+  LAMBENT_TOOL=$(realpath "$build/apps/lambent/lambent") \
+    LAMBENT_WEB_MODULES=$tree/web/three-lambent node bench/web_bench.mjs "$results/web_bench.csv"
 fi
 echo
 echo "figures: $results/"

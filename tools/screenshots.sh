@@ -33,5 +33,6 @@ xvfb-run -a "$lambent" view "$work/bunny.glb" build/inputs/hdri/sunset.exr \
   --script "$work/native.txt"
 xvfb-run -a "$lambent" view "$work/bunny.glb" uniform:0.1 --surroundings demo \
   --script "$work/surroundings.txt"
+node tests/web/stage.mjs "$PWD" "$build/tests/web/tree" web/three-lambent
 LAMBENT_TOOL=$lambent LAMBENT_WEB_MODULES=$build/tests/web/tree/web/three-lambent \
   node tools/screenshots.mjs "$folder"
