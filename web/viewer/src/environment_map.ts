@@ -51,6 +51,8 @@ function decodeHdr(bytes: ArrayBuffer): LightMap {
     height: number;
     data: Float32Array;
   };
+  // Radiance stores a number n of 8 bits as n/256 of its exponent; three's loader takes n/255.
+  for (let i = 0; i < data.length; ++i) if (i % 4 !== 3) data[i]! *= 255 / 256;
   return { width, height, data };
 }
 
