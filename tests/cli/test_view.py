@@ -282,6 +282,46 @@ class View(ToolTest):
         close(part("near", "camera", "position"),
               [0.2 * height * (1 - shrunk), 0.1 * height * (1 - shrunk), 4 * shrunk])
 
+    def test_lamps_around_it_light_it(self):
+        self.bake()
+        quiet = """
+            set panel off
+            set background off
+            set samples 2
+            """
+        self.script(quiet + "screenshot alone.png", "ball.glb", "uniform:0.05")
+        tour = quiet + """
+            key P
+            wait 2
+            screenshot early.png
+            wait 5
+            screenshot early-still.png
+            set transfer unshadowed
+            screenshot early-unshadowed.png
+            set transfer best
+            key P
+            wait 90
+            key P
+            screenshot later.png
+            """
+        self.script(tour, "ball.glb", "uniform:0.05", "--surroundings", "demo")
+        of = lambda a, b: mean_difference(self.path(a + ".png"), self.path(b + ".png"))
+        self.assertGreater(of("alone", "early"), 2)
+        self.assertEqual(of("early", "early-still"), 0)
+        # Another choice of transfer is lit by the same lamps: no wholesale change.
+        self.assertLess(of("early", "early-unshadowed"), of("alone", "early"))
+        self.assertGreater(of("early", "later"), 1)
+        self.script(quiet + "key P\nwait 2\nscreenshot one.png", "ball.glb", "uniform:0.05",
+                    "--surroundings", "demo", "--light-samples", "1")
+        self.assertGreater(of("early", "one"), 0.2)
+
+        self.write("notes.glb", "not a scene")
+        self.assertIn("notes.glb", self.script("wait 1", "ball.glb", "--surroundings", "notes.glb",
+                                               code=BAD_INPUT).stderr)
+        self.script("wait 1", "ball.glb", "--surroundings", "demo", "--light-samples", "0",
+                    code=USAGE)
+        self.script("wait 1", "ball.glb", "--light-samples", "3", code=USAGE)
+
     def test_screenshot_option(self):
         self.bake()
         self.view("ball.glb", "uniform", "--screenshot", "shot.png", "--size", "300x200")
