@@ -7,13 +7,13 @@ ASAN_ROOMS ?= file math radiometry sh image scene scene_io encode asset light ca
 
 $(shell mkdir -p build)
 
-.PHONY: all help setup setup-tests inputs configure build everything test demo figures screenshots bench \
+.PHONY: all help setup setup-tests inputs configure build product everything test demo figures screenshots bench \
         install asan tsan format check-format check clean
 
-all: build
+all: product
 
 help:
-	@echo 'make                     build the library and the tool into $(BUILD)'
+	@echo 'make                     build the library, the tool and the page into $(BUILD)'
 	@echo 'make demo                bake a bunny, relight it, compare with the path-traced truth'
 	@echo 'make test                build and run every test'
 	@echo 'make bench               measure; CSV files under bench/results/'
@@ -40,6 +40,10 @@ configure: setup
 build: configure
 	@cmake --build $(BUILD) --parallel $(JOBS) --target lambent_tool
 
+# What is installed: the tool, and the page where npm is there to build it.
+product: configure
+	@cmake --build $(BUILD) --parallel $(JOBS) --target lambent_product
+
 everything: configure
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
@@ -61,7 +65,7 @@ bench: setup-tests everything
 	@tools/fetch-inputs.sh all
 	@bench/run.sh $(BUILD)
 
-install: build
+install: product
 	@cmake --install $(BUILD) --prefix '$(PREFIX)' > $(BUILD)-install.log
 	@echo 'installed: $(PREFIX)/bin/lambent'
 
