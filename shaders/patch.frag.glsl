@@ -7,7 +7,8 @@
 // Before this text stand: #define LAMBENT_GROUPS, LAMBENT_INTERPOLATED and LAMBENT_EACH_GROUP as in
 // patch.vert.glsl; LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the light holds
 // already); LAMBENT_RESPONSE, which is READ(0) ADD(0) ADD(1) … READ(1) … for all fetches and the
-// groups that each brings; LAMBENT_FILTER 0 or 1 and, if 1, rtt_footprint.glsl; view_square.glsl.
+// groups that each brings; LAMBENT_FILTER 0 or 1; view_square.glsl, rtt_footprint.glsl,
+// tangent_frame.glsl, rtt_look_up.glsl.
 
 struct Vertex {
   vec4 positionU;
@@ -31,12 +32,9 @@ layout(binding = 1) uniform usampler2D idMap;
 
 uniform vec4 eye;         // position, 1; or, for an orthographic camera, direction to the viewer, 0
 uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of distance, and anyway
-uniform int views;
 uniform bool viewDependent, hasIdMap;
 uniform vec2 tiles;            // without an id map: q = tiles (u, −v)
 uniform vec2 periodsPerMetre;  // with one
-uniform int levelCount;
-uniform ivec4 levels[16];  // width, height, first position
 
 in vec3 position;
 in vec4 normalU;
@@ -94,68 +92,6 @@ vec3 response(int place) {
               sum[0].z + sum[1].y + sum[2].x + sum[2].w);
 }
 
-// The views around the direction, as shade::viewsAround.
-ivec2 lowView, highView;
-vec2 highShare;
-
-void chooseViews(vec3 toViewer) {
-  vec2 at = squareFromHemisphere(vec3(toViewer.xy, max(0.0, toViewer.z))) * float(views) - 0.5;
-  at = clamp(at, 0.0, float(views - 1));
-  lowView = ivec2(at);
-  highView = min(lowView + 1, views - 1);
-  highShare = at - vec2(lowView);
-}
-
-// The response of one position to the light, between the views.
-vec3 seen(int first, int place) {
-  int begin = (first + place) * views * views;
-  vec3 sum = vec3(0.0);
-  for (int v = 0; v < 4; ++v) {
-    bvec2 high = bvec2(v & 1, v & 2);
-    vec2 share = mix(1.0 - highShare, highShare, high);
-    if (share.x * share.y == 0.0) continue;
-    ivec2 view = ivec2(high.x ? highView.x : lowView.x, high.y ? highView.y : lowView.y);
-    sum += share.x * share.y * response(begin + view.y * views + view.x);
-  }
-  return sum;
-}
-
-vec3 nearest(vec2 q) {
-  ivec4 level = levels[0];
-  ivec2 at = min(ivec2(q * vec2(level.xy)), level.xy - 1);
-  return seen(level.z, at.y * level.x + at.x);
-}
-
-#if LAMBENT_FILTER
-// As shade::respond.
-vec3 filtered(vec2 q, Probes probes) {
-  float depth = min(probes.level, float(levelCount - 1));
-  int finer = int(depth), coarser = min(finer + 1, levelCount - 1);
-  float mixed = depth - float(finer);
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < probes.count; ++i) {
-    vec2 at = fract(q + (float(i) - 0.5 * float(probes.count - 1)) * probes.stride);
-    for (int which = 0; which < 2; ++which) {
-      float share = which == 0 ? 1.0 - mixed : mixed;
-      if (share == 0.0) continue;
-      int k = which == 0 ? finer : coarser;
-      ivec4 level = levels[k];
-      // Level 0 at the nearest position: the one whose cell the place lies in.
-      vec2 cell = at * vec2(level.xy) - (k == 0 ? 0.0 : 0.5);
-      vec2 low = floor(cell), high = k == 0 ? vec2(0.0) : cell - low;
-      for (int corner = 0; corner < 4; ++corner) {
-        ivec2 right = ivec2(corner & 1, corner >> 1);
-        vec2 part = mix(1.0 - high, high, bvec2(right));
-        if (part.x * part.y == 0.0) continue;
-        ivec2 place = (ivec2(low) + right + level.xy) % level.xy;
-        sum += share * part.x * part.y * seen(level.z, place.y * level.x + place.x);
-      }
-    }
-  }
-  return sum / float(probes.count);
-}
-#endif
-
 vec2 patchPlace(vec2 uv) {
   if (hasIdMap) {
     ivec2 size = textureSize(idMap, 0);
@@ -163,21 +99,6 @@ vec2 patchPlace(vec2 uv) {
     return vec2(texelFetch(idMap, texel, 0).rg) / 65536.0;
   }
   return fract(tiles * vec2(uv.x, -uv.y));
-}
-
-// As shade::worldFromPatch.
-mat3 worldFromPatch(vec3 normal, vec3 tangent) {
-  vec3 along = tangent - dot(normal, tangent) * normal;
-  float across = length(along);
-  if (across > 1e-6) {
-    along /= across;
-  } else {
-    float sign = normal.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (sign + normal.z);
-    along = vec3(1.0 + sign * normal.x * normal.x * a, sign * normal.x * normal.y * a,
-                 -sign * normal.x);
-  }
-  return mat3(along, cross(normal, along), normal);
 }
 
 void main() {

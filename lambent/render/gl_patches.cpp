@@ -31,7 +31,7 @@ using encode::EncodedMesh;
 using encode::EncodedRtt;
 using encode::Encoding;
 
-constexpr int kMostLevels = 16;  // as in patch.frag.glsl
+constexpr int kMostLevels = 16;  // as in rtt_look_up.glsl
 
 struct PatchVertex {
   float position[3], u;
@@ -229,6 +229,8 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
                                     "patch.frag.glsl",
                                     {defines, std::string(shaderSource("view_square.glsl")),
                                      std::string(shaderSource("rtt_footprint.glsl")),
+                                     std::string(shaderSource("tangent_frame.glsl")),
+                                     std::string(shaderSource("rtt_look_up.glsl")),
                                      std::string(shaderSource("patch.frag.glsl"))}}};
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();

@@ -4,7 +4,13 @@ import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 
 const shared = new URL("../../../shaders/", import.meta.url);
 const own = new URL("../src/glsl/", import.meta.url);
-const kShared = ["sh.glsl", "view_square.glsl", "rtt_footprint.glsl"];
+const kShared = [
+  "sh.glsl",
+  "view_square.glsl",
+  "rtt_footprint.glsl",
+  "rtt_look_up.glsl",
+  "tangent_frame.glsl",
+];
 
 /** view_square.glsl → viewSquare, patch.frag.glsl → patchFrag */
 const nameOf = (file) =>

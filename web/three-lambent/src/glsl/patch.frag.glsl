@@ -7,7 +7,8 @@
 // Before this text stand: #define LAMBENT_FETCH; incident.glsl; LAMBENT_NUMBERS 0 (floats), 1 (halves) or 2 (bytes, whose scales the
 // light holds already); LAMBENT_RESPONSE, which reads all groups of a row and adds their products
 // with the light to sum0, sum1, sum2 (src/materials/incident-code.ts); LAMBENT_FILTER, LAMBENT_ID_MAP 0 or 1; row_place.glsl,
-// view_square.glsl, rtt_footprint.glsl, tangent_frame.glsl, shading_point.glsl.
+// view_square.glsl, rtt_footprint.glsl, tangent_frame.glsl,
+// rtt_look_up.glsl, shading_point.glsl.
 
 #include <common>
 #include <logdepthbuf_pars_fragment>
@@ -36,11 +37,8 @@ in vec4 incident[LAMBENT_GROUPS];
 
 uniform highp usampler2DArray rtt;  // [level][y][x][view y][view x], a row for each
 uniform ivec3 rttRows;
-uniform int views;
 uniform bool viewDependent;
 uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of distance, and anyway
-uniform int levelCount;
-uniform ivec4 levels[16];  // width, height, first position
 #if LAMBENT_ID_MAP
 uniform highp usampler2D idMap;
 uniform vec2 periodsPerMetre;
@@ -74,68 +72,6 @@ vec3 response(int row) {
               sum0.z + sum1.y + sum2.x + sum2.w);
 }
 
-// The views around the direction, as shade::viewsAround.
-ivec2 lowView, highView;
-vec2 highShare;
-
-void chooseViews(vec3 toViewer) {
-  vec2 at = squareFromHemisphere(vec3(toViewer.xy, max(0.0, toViewer.z))) * float(views) - 0.5;
-  at = clamp(at, 0.0, float(views - 1));
-  lowView = ivec2(at);
-  highView = min(lowView + 1, views - 1);
-  highShare = at - vec2(lowView);
-}
-
-// The response of one position to the light, between the views.
-vec3 seen(int first, int place) {
-  int begin = (first + place) * views * views;
-  vec3 sum = vec3(0.0);
-  for (int v = 0; v < 4; ++v) {
-    bool right = (v & 1) != 0, up = (v & 2) != 0;
-    float share = (right ? highShare.x : 1.0 - highShare.x) * (up ? highShare.y : 1.0 - highShare.y);
-    if (share == 0.0) continue;
-    ivec2 view = ivec2(right ? highView.x : lowView.x, up ? highView.y : lowView.y);
-    sum += share * response(begin + view.y * views + view.x);
-  }
-  return sum;
-}
-
-vec3 nearest(vec2 q) {
-  ivec4 level = levels[0];
-  ivec2 at = min(ivec2(q * vec2(level.xy)), level.xy - 1);
-  return seen(level.z, at.y * level.x + at.x);
-}
-
-#if LAMBENT_FILTER
-// As shade::respond.
-vec3 filtered(vec2 q, Probes probes) {
-  float depth = min(probes.level, float(levelCount - 1));
-  int finer = int(depth), coarser = min(finer + 1, levelCount - 1);
-  float mixed = depth - float(finer);
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < probes.count; ++i) {
-    vec2 at = fract(q + (float(i) - 0.5 * float(probes.count - 1)) * probes.stride);
-    for (int which = 0; which < 2; ++which) {
-      float share = which == 0 ? 1.0 - mixed : mixed;
-      if (share == 0.0) continue;
-      int k = which == 0 ? finer : coarser;
-      ivec4 level = levels[k];
-      // Level 0 at the nearest position: the one whose cell the place lies in.
-      vec2 cell = at * vec2(level.xy) - (k == 0 ? 0.0 : 0.5);
-      vec2 low = floor(cell), high = k == 0 ? vec2(0.0) : cell - low;
-      for (int corner = 0; corner < 4; ++corner) {
-        ivec2 right = ivec2(corner & 1, corner >> 1);
-        vec2 part = mix(1.0 - high, high, bvec2(right));
-        if (part.x * part.y == 0.0) continue;
-        ivec2 place = (ivec2(low) + right + level.xy) % level.xy;
-        sum += share * part.x * part.y * seen(level.z, place.y * level.x + place.x);
-      }
-    }
-  }
-  return sum / float(probes.count);
-}
-#endif
-
 vec2 patchPlace(vec2 uv) {
 #if LAMBENT_ID_MAP
   ivec2 size = textureSize(idMap, 0);
@@ -167,7 +103,7 @@ void main() {
 #if LAMBENT_FETCH
     interpolate();
 #endif
-    mat3 frame = assetFromPatch(point.normal, tangent_);
+    mat3 frame = worldFromPatch(point.normal, tangent_);
     vec3 toViewer = point.toViewer * frame;
     chooseViews(viewDependent ? toViewer : vec3(0.0, 0.0, 1.0));
     vec2 q = patchPlace(point.uv);

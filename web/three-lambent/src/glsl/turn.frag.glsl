@@ -18,7 +18,7 @@ mat3 frame;
 
 void begin(int receiver) {
   ivec3 place = rowPlace(frameRows, receiver);
-  frame = assetFromPatch(normalize(texelFetch(normals, place, 0).xyz),
+  frame = worldFromPatch(normalize(texelFetch(normals, place, 0).xyz),
                          texelFetch(tangents, place, 0).xyz);
 }
 

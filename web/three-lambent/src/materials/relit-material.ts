@@ -24,6 +24,7 @@ import {
   patchFrag,
   rowPlace,
   rttFootprint,
+  rttLookUp,
   sh,
   shadingPoint,
   surfaceFrag,
@@ -202,6 +203,7 @@ export function makePatchMaterial(
     viewSquare,
     rttFootprint,
     tangentFrame,
+    rttLookUp,
     shadingPoint,
     patchFrag,
   ];

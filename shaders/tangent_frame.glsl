@@ -1,7 +1,7 @@
-// The patch's axes in the asset's frame, as shade::worldFromPatch: the tangent made orthonormal to a
-// unit normal, their cross product, the normal.
+// The patch's axes, as shade::worldFromPatch: the tangent made orthonormal to a unit normal, their
+// cross product, the normal.
 
-mat3 assetFromPatch(vec3 normal, vec3 tangent) {
+mat3 worldFromPatch(vec3 normal, vec3 tangent) {
   vec3 along = tangent - dot(normal, tangent) * normal;
   float across = length(along);
   if (across > 1e-6) {

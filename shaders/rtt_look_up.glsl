@@ -1,0 +1,75 @@
+// A radiance transfer texture between its views and positions: shade::respond, with all that a pixel
+// covers averaged if LAMBENT_FILTER is 1.
+//
+// Before this text stand: #define LAMBENT_FILTER 0 or 1; view_square.glsl, rtt_footprint.glsl. After
+// it: response(), which every renderer reads in its own way.
+
+uniform int views;
+uniform int levelCount;
+uniform ivec4 levels[16];  // width, height, first position
+
+// Of one position, seen from one view, to the light that arrives here. `row`: position · views² +
+// view, positions of all levels one after the other.
+vec3 response(int row);
+
+// The views around the direction, as shade::viewsAround.
+ivec2 lowView, highView;
+vec2 highShare;
+
+void chooseViews(vec3 toViewer) {
+  vec2 at = squareFromHemisphere(vec3(toViewer.xy, max(0.0, toViewer.z))) * float(views) - 0.5;
+  at = clamp(at, 0.0, float(views - 1));
+  lowView = ivec2(at);
+  highView = min(lowView + 1, views - 1);
+  highShare = at - vec2(lowView);
+}
+
+// The response of one position to the light, between the views.
+vec3 seen(int first, int place) {
+  int begin = (first + place) * views * views;
+  vec3 sum = vec3(0.0);
+  for (int v = 0; v < 4; ++v) {
+    bvec2 high = bvec2(v & 1, v & 2);
+    vec2 share = mix(1.0 - highShare, highShare, high);
+    if (share.x * share.y == 0.0) continue;
+    ivec2 view = ivec2(high.x ? highView.x : lowView.x, high.y ? highView.y : lowView.y);
+    sum += share.x * share.y * response(begin + view.y * views + view.x);
+  }
+  return sum;
+}
+
+vec3 nearest(vec2 q) {
+  ivec4 level = levels[0];
+  ivec2 at = min(ivec2(q * vec2(level.xy)), level.xy - 1);
+  return seen(level.z, at.y * level.x + at.x);
+}
+
+#if LAMBENT_FILTER
+// As shade::respond.
+vec3 filtered(vec2 q, Probes probes) {
+  float depth = min(probes.level, float(levelCount - 1));
+  int finer = int(depth), coarser = min(finer + 1, levelCount - 1);
+  float mixed = depth - float(finer);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < probes.count; ++i) {
+    vec2 at = fract(q + (float(i) - 0.5 * float(probes.count - 1)) * probes.stride);
+    for (int which = 0; which < 2; ++which) {
+      float share = which == 0 ? 1.0 - mixed : mixed;
+      if (share == 0.0) continue;
+      int k = which == 0 ? finer : coarser;
+      ivec4 level = levels[k];
+      // Level 0 at the nearest position: the one whose cell the place lies in.
+      vec2 cell = at * vec2(level.xy) - (k == 0 ? 0.0 : 0.5);
+      vec2 low = floor(cell), high = k == 0 ? vec2(0.0) : cell - low;
+      for (int corner = 0; corner < 4; ++corner) {
+        ivec2 right = ivec2(corner & 1, corner >> 1);
+        vec2 part = mix(1.0 - high, high, bvec2(right));
+        if (part.x * part.y == 0.0) continue;
+        ivec2 place = (ivec2(low) + right + level.xy) % level.xy;
+        sum += share * part.x * part.y * seen(level.z, place.y * level.x + place.x);
+      }
+    }
+  }
+  return sum / float(probes.count);
+}
+#endif
