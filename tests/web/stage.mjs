@@ -18,7 +18,7 @@ const made = (path) => kMade.has(basename(path));
 const folder = join(to, name);
 
 // What is made is kept over a copy; all else is replaced, so that nothing stays that was removed.
-const kShared = ["shaders", "spec/samples", "tests/conventions"];
+const kShared = ["shaders", "spec/samples", "spec/refused.json", "tests/conventions"];
 for (const shared of kShared) {
   rmSync(join(to, shared), { recursive: true, force: true });
   cpSync(join(from, shared), join(to, shared), { recursive: true });
