@@ -122,13 +122,13 @@ std::optional<std::string> faultOfLocalMatrices(const EncodedMesh& t, const Numb
   const std::uint64_t matrix = squared(t.biScale->bands) * squared(t.biScale->bands);
   const std::uint64_t needed = t.receiverCount() * std::uint64_t(channels) * matrix;
   if (numbers.size() != needed)
-    return "biScale: " + name + ": " + text(numbers.size()) + " numbers where " +
+    return "biScale." + name + ": " + text(numbers.size()) + " numbers where " +
            text(t.receiverCount()) + " receivers × " + text(std::uint64_t(channels)) +
            " channels × " + text(matrix) + " need " + text(needed);
   if (numbers.encoding == Encoding::Snorm8 && numbers.block != matrix)
-    return "biScale: " + name + ": snorm8 needs one scale for each matrix";
+    return "biScale." + name + ": snorm8 needs one scale for each matrix";
   if (const auto at = firstNonFinite(numbers))
-    return "biScale: " + name + ": not a finite number at receiver " +
+    return "biScale." + name + ": not a finite number at receiver " +
            text(*at / (std::uint64_t(channels) * matrix));
   return std::nullopt;
 }
@@ -140,34 +140,52 @@ std::optional<std::string> faultOfBiScale(const EncodedMesh& t, const scene::Mes
   if (!t.vectors.empty() || !t.matrices.empty() || !t.shadowed.empty())
     return std::string("biScale: a bi-scale mesh has no vectors or matrices beside it");
   if (b.rtt < 0 || std::size_t(b.rtt) >= field.rtts.size())
-    return "biScale: rtt is " + std::to_string(b.rtt) + ", and the asset has " +
+    return "biScale.rtt: is " + std::to_string(b.rtt) + ", and the asset has " +
            text(field.rtts.size());
   if (!bandsInRange(b.bands))
-    return "biScale: bands is " + std::to_string(b.bands) + ", not 1 to 10";
+    return "biScale.bands: is " + std::to_string(b.bands) + ", not 1 to 10";
+  if (const int other = field.rtts[std::size_t(b.rtt)].bands; other != b.bands)
+    return "biScale.bands: is " + std::to_string(b.bands) + ", and its RTT's " +
+           std::to_string(other);
   if (!(b.scale > 0.0f) || !std::isfinite(b.scale))
-    return std::string("biScale: scale must be finite and above 0");
+    return std::string("biScale.scale: must be finite and above 0");
   if (b.tangents.size() != mesh.positions.size())
-    return "biScale: " + text(b.tangents.size()) + " tangents for " + text(mesh.positions.size()) +
+    return "biScale.tangents: " + text(b.tangents.size()) + " for " + text(mesh.positions.size()) +
            " vertices";
   for (std::size_t i = 0; i < b.tangents.size(); ++i)
     if (!(std::abs(b.tangents[i].norm() - 1.0f) < 1e-3f) ||
         !(std::abs(b.tangents[i].dot(mesh.normals[i])) < 1e-2f))
-      return "biScale: tangent " + text(i) + " is not of unit length at right angles to the normal";
+      return "biScale.tangents: that of vertex " + text(i) +
+             " is not of unit length at right angles to the normal";
   if (mesh.uvs.size() != mesh.positions.size())
     return std::string("biScale: the primitive has no TEXCOORD_0 to find the patch by");
   if (b.idMap) {
     const std::uint64_t texels = std::uint64_t(b.idMap->width) * std::uint64_t(b.idMap->height);
     if (b.idMap->width < 1 || b.idMap->height < 1 || b.idMap->width > kLargestGrid ||
         b.idMap->height > kLargestGrid || b.idMap->ids.size() != 2 * texels)
-      return "biScale: idMap: " + text(b.idMap->ids.size()) + " numbers for " +
+      return "biScale.idMap: " + text(b.idMap->ids.size()) + " numbers for " +
              std::to_string(b.idMap->width) + "×" + std::to_string(b.idMap->height) + " texels";
-  } else if (!b.tiles.allFinite()) {
-    return std::string("biScale: tiles must be finite");
+  } else if (!b.tiles.allFinite() || b.tiles.x() == 0.0f || b.tiles.y() == 0.0f) {
+    return std::string("biScale.tiles: must be finite and not 0");
   }
   if (auto fault = faultOfLocalMatrices(t, b.shadowed, "shadowed", 1)) return fault;
   if (!b.interreflected.empty() && !channelsInRange(b.channels))
-    return "biScale: interreflected: channels is " + std::to_string(b.channels) + ", not 1 or 3";
+    return "biScale.interreflected: channels is " + std::to_string(b.channels) + ", not 1 or 3";
   return faultOfLocalMatrices(t, b.interreflected, "interreflected", b.channels);
+}
+
+/// What checkGltf asks of a file's vertices: of those with transfer, and of those without.
+std::optional<std::string> faultOfSurface(const scene::Mesh& mesh, bool carriesTransfer) {
+  if (carriesTransfer && (mesh.positions.empty() || mesh.normals.size() != mesh.positions.size()))
+    return text(mesh.normals.size()) + " normals for " + text(mesh.positions.size()) +
+           " vertices with transfer";
+  const auto finite = [](const auto& values) {
+    return std::all_of(values.begin(), values.end(),
+                       [](const auto& v) { return v.array().isFinite().all(); });
+  };
+  if (!finite(mesh.positions) || !finite(mesh.normals) || !finite(mesh.uvs) || !finite(mesh.colors))
+    return std::string("a position, normal, texture coordinate or colour is not finite");
+  return std::nullopt;
 }
 
 /// Vertex receivers are not stored: they are the primitive's vertices.
@@ -240,12 +258,13 @@ std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mes
     if (auto fault = faultOfShadowed(transfer, field)) return fault;
   if (transfer.biScale)
     if (auto fault = faultOfBiScale(transfer, mesh, field)) return fault;
-  const int needed = std::max({transfer.vectors.empty() ? 0 : transfer.bands,
-                               transfer.matrices.empty() ? 0 : transfer.inBands,
-                               transfer.biScale ? transfer.biScale->bands : 0});
-  if (needed > field.bands)
-    return "takes light of " + std::to_string(needed) + " bands, more than the asset's " +
-           std::to_string(field.bands);
+  for (const auto& [name, needed] :
+       {std::pair("vectors.bands", transfer.vectors.empty() ? 0 : transfer.bands),
+        std::pair("matrices.inBands", transfer.matrices.empty() ? 0 : transfer.inBands),
+        std::pair("biScale.bands", transfer.biScale ? transfer.biScale->bands : 0)})
+    if (needed > field.bands)
+      return std::string(name) + ": takes light of " + std::to_string(needed) +
+             " bands, more than the asset's " + std::to_string(field.bands);
   return std::nullopt;
 }
 
@@ -272,6 +291,9 @@ Status checkForWriting(const Asset& asset) {
   for (std::size_t i = 0; i < field.rtts.size(); ++i)
     if (auto fault = faultOf(field.rtts[i]))
       return report::failed("rtt " + text(i) + ": " + *fault);
+  for (std::size_t i = 0; i < field.meshes.size(); ++i)
+    if (auto fault = faultOfSurface(asset.scene.meshes[i], field.meshes[i].layout != Layout::None))
+      return report::failed(meshLabel(asset.scene, i) + ": " + *fault);
   for (std::size_t i = 0; i < field.meshes.size(); ++i)
     if (auto fault = faultOf(field.meshes[i], asset.scene.meshes[i], field))
       return report::failed(meshLabel(asset.scene, i) + ": " + *fault);

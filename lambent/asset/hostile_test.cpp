@@ -1,4 +1,5 @@
-// Files from anywhere: truncated, damaged, and made to mislead.
+// Files from anywhere: truncated, damaged, and made to mislead. What single members may hold is in
+// spec/refused.json (refused_test.cpp).
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -77,167 +78,38 @@ TEST_F(AssetHostile, OrdinaryGltfIsSentToTheBake) {
   });
 }
 
-TEST_F(AssetHostile, Versions) {
-  expectRefused("version: 2.0 is newer than 1.2", [](json& d) { root(d)["version"] = "2.0"; });
-  expectRefused("version: 0.9 is older than 1.2", [](json& d) { root(d)["version"] = "0.9"; });
-  for (const char* odd : {"", "1", "1.", ".5", "1.x", "one", "1.0.0", "-1.0"})
-    expectRefused("is not of the form", [&](json& d) { root(d)["version"] = odd; });
-  expectRefused("version: is not a string", [](json& d) { root(d)["version"] = 1; });
-  expectRefused("version: is missing", [](json& d) { root(d).erase("version"); });
-  EXPECT_TRUE(readChanged([](json& d) { root(d)["version"] = "1.7"; }));
-}
-
-TEST_F(AssetHostile, RootMembers) {
-  expectRefused("transfer: is not unshadowed", [](json& d) { root(d)["transfer"] = "dark"; });
-  expectRefused("frame: is not \"scene\"", [](json& d) { root(d)["frame"] = "object"; });
-  for (const json& odd :
-       {json(0), json(11), json(5.5), json("5"), json(1e300), json(-3), json(nullptr)})
-    expectRefused("bands: is not an integer", [&](json& d) { root(d)["bands"] = odd; });
-  expectRefused("takes light of 3 bands", [](json& d) { root(d)["bands"] = 2; });
-  for (const json& odd : {json("18446744073709551616"), json("-1"), json(""), json("0x1")})
-    expectRefused("seed: is not a string of", [&](json& d) { root(d)["seed"] = odd; });
-  expectRefused("seed: is not a string", [](json& d) { root(d)["seed"] = 7; });
-  expectRefused("passEnergy: has an entry", [](json& d) { root(d)["passEnergy"] = {1, "x"}; });
-  expectRefused("passEnergy: is not an array", [](json& d) { root(d)["passEnergy"] = 1; });
-  expectRefused(kName + ": is not an object", [](json& d) { root(d) = json::array(); });
-}
-
-TEST_F(AssetHostile, PrimitiveMembers) {
-  expectRefused("meshes[0].primitives[0].extensions.LAMBENT_radiance_transfer.layout: is neither",
-                [](json& d) { primitive(d, 0)["layout"] = "none"; });
-  expectRefused("vectors.encoding: is neither",
-                [](json& d) { primitive(d, 0)["vectors"]["encoding"] = "float64"; });
-  expectRefused("vectors.albedo: is neither",
-                [](json& d) { primitive(d, 0)["vectors"]["albedo"] = "maybe"; });
-  expectRefused("channels is 2, not 1 or 3",
-                [](json& d) { primitive(d, 0)["vectors"]["channels"] = 2; });
-  expectRefused("vectors: is not an object", [](json& d) { primitive(d, 0)["vectors"] = 3; });
+TEST_F(AssetHostile, MessagesSayWhatToDo) {
+  expectRefused("version: 2.0 is newer than 1.2, which this Lambent reads: use a newer Lambent",
+                [](json& d) { root(d)["version"] = "2.0"; });
+  expectRefused("version: 0.9 is older than 1.2: bake the scene anew",
+                [](json& d) { root(d)["version"] = "0.9"; });
   expectRefused("108 numbers where 4 receivers × 1 channels × 9 coefficients need 36",
                 [](json& d) { primitive(d, 0)["vectors"]["channels"] = 1; });
-  expectRefused("matrices: 144 numbers where",
-                [](json& d) { primitive(d, 2)["matrices"]["outBands"] = 3; });
-  expectRefused("matrices.inBands: is not an integer from 1 to 10",
-                [](json& d) { primitive(d, 2)["matrices"]["inBands"] = 1000000; });
-  expectRefused("glossy: is not an array of 3", [](json& d) {
-    primitive(d, 2)["matrices"]["glossy"] = {1, 2};
-  });
-  expectRefused("glossy must be", [](json& d) { primitive(d, 2)["matrices"]["glossy"][1] = -1; });
-  expectRefused("glossy must be", [](json& d) { primitive(d, 2)["matrices"]["glossy"][1] = 1e60; });
-  expectRefused("lobeExponent: is not a number in range",
-                [](json& d) { primitive(d, 2)["matrices"]["lobeExponent"] = -1; });
-}
-
-TEST_F(AssetHostile, Grids) {
-  expectRefused("grid: is missing", [](json& d) { primitive(d, 1).erase("grid"); });
-  expectRefused("grid.width: is not an integer",
-                [](json& d) { primitive(d, 1)["grid"]["width"] = 2147483647; });
   expectRefused("grid: 6 positions for 8 texels",
                 [](json& d) { primitive(d, 1)["grid"]["width"] = 4; });
-  expectRefused("grid.texCoord: is not an integer from 0 to 0",
-                [](json& d) { primitive(d, 1)["grid"]["texCoord"] = 1; });
-  expectRefused("grid: the primitive has no TEXCOORD_0",
-                [](json& d) { d["meshes"][1]["primitives"][0]["attributes"].erase("TEXCOORD_0"); });
-  expectRefused("grid.normals: accessor", [](json& d) {
-    json& grid = primitive(d, 1)["grid"];
-    grid["normals"] = grid["covered"];
-  });
-}
-
-TEST_F(AssetHostile, Accessors) {
-  for (const json& odd : {json(-1), json(1e18), json("0"), json(0.5), json(nullptr)})
-    expectRefused("vectors.accessor: is not an integer",
-                  [&](json& d) { primitive(d, 0)["vectors"]["accessor"] = odd; });
-  const Result<Asset> beyond =
-      readChanged([](json& d) { primitive(d, 0)["vectors"]["accessor"] = 1000000; });
-  ASSERT_FALSE(beyond);
-  EXPECT_EQ(beyond.error().kind, ErrorKind::BadInput);
-  expectRefused("has component type 5126 × 3", [](json& d) {
-    primitive(d, 0)["vectors"]["accessor"] =
-        d["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
-  });
   expectRefused("has component type 5123 × 1 where 5126",
                 [](json& d) { primitive(d, 0)["vectors"]["encoding"] = "float32"; });
-  // Claims more than the buffer holds.
-  const Result<Asset> longer = readChanged([](json& d) {
-    const std::size_t accessor = primitive(d, 0)["vectors"]["accessor"];
-    d["accessors"][accessor]["count"] = 4000000000u;
-  });
-  ASSERT_FALSE(longer);
-  EXPECT_EQ(longer.error().kind, ErrorKind::BadInput);
-  // Empty, by sparse or no buffer view: zeros of any number without a byte of file.
-  const Result<Asset> zeros = readChanged([](json& d) {
-    const std::size_t accessor = primitive(d, 0)["vectors"]["accessor"];
-    d["accessors"][accessor].erase("bufferView");
-    d["accessors"][accessor]["count"] = 4000000000u;
-  });
-  EXPECT_FALSE(zeros);
+  expectRefused("moves a mesh away from where its transfer was baked: bake the scene as it stands",
+                [](json& d) {
+                  d["nodes"][1]["translation"] = {0, 1, 0};
+                });
 }
 
-TEST_F(AssetHostile, AccessorsThatOverlapCannotAskForMoreThanTheFile) {
-  expectRefused("accessors overlap", [](json& d) {
-    // A hundred nodes show the same mesh: each would take a copy of its transfer.
-    for (int i = 0; i < 100; ++i) {
-      d["nodes"].push_back({{"mesh", 1}});
-      d["scenes"][0]["nodes"].push_back(d["nodes"].size() - 1);
-    }
-  });
-}
-
-TEST_F(AssetHostile, NodesThatMoveTheMesh) {
-  expectRefused("nodes[1]: moves a mesh away", [](json& d) {
-    d["nodes"][1]["translation"] = {0, 1, 0};
-  });
-  expectRefused("nodes[2]: moves a mesh away", [](json& d) {
-    d["nodes"].push_back({{"children", {2}}, {"scale", {2, 2, 2}}});
-    d["scenes"][0]["nodes"] = {0, 1, d["nodes"].size() - 1, 3};
-  });
-  // An identity that is spelled out moves nothing; nor does moving a mirror unbake the others.
-  const Result<Asset> same = readChanged([](json& d) {
-    d["nodes"][0]["rotation"] = {0, 0, 0, 1};
-    d["nodes"][1]["scale"] = {1.0, 1.0, 1.0};
-  });
-  EXPECT_TRUE(same);
-}
-
-TEST_F(AssetHostile, DeformedMeshes) {
-  expectRefused("deform a mesh", [](json& d) { d["nodes"][0]["skin"] = 0; });
-  expectRefused("deform a mesh", [](json& d) {
-    json& bent = d["meshes"][1]["primitives"][0];
-    bent["targets"] = {{{"POSITION", bent["attributes"]["POSITION"]}}};
-  });
-}
-
-TEST_F(AssetHostile, NumbersThatAreNotFinite) {
+TEST_F(AssetHostile, NumbersThatAreNotFiniteAreFound) {
   Glb glb = Glb::parse(good_);
-  const json document = json::parse(glb.json);
-  const auto poke = [&](std::size_t accessor, std::size_t at, std::initializer_list<int> bytes) {
-    Glb bad = glb;
-    const std::size_t view = document["accessors"][accessor]["bufferView"];
-    std::size_t offset = document["bufferViews"][view].value("byteOffset", std::size_t(0)) + at;
-    for (int byte : bytes) bad.binary[offset++] = std::byte(byte);
-    return readBytes(bad.bytes());
-  };
-  json copy = document;
-  const Result<Asset> half =
-      poke(primitive(copy, 0)["vectors"]["accessor"], 2 * (27 * 3 + 5), {0, 0x7e});
+  json document = json::parse(glb.json);
+  const std::size_t accessor = primitive(document, 0)["vectors"]["accessor"];
+  const std::size_t view = document["accessors"][accessor]["bufferView"];
+  const std::size_t offset = document["bufferViews"][view].value("byteOffset", std::size_t(0));
+  glb.binary[offset + 2 * (27 * 3 + 5)] = std::byte(0);
+  glb.binary[offset + 2 * (27 * 3 + 5) + 1] = std::byte(0x7e);
+  const Result<Asset> half = readBytes(glb.bytes());
   ASSERT_FALSE(half);
   EXPECT_NE(half.error().message.find(
-                "meshes[0].primitives[0].extensions.LAMBENT_radiance_transfer: vectors: not a "
+                "meshes[0].primitives[0].extensions.LAMBENT_radiance_transfer.vectors: not a "
                 "finite number at receiver 3, channel 0, coefficient 5"),
             std::string::npos)
       << half.error().message;
-  const Result<Asset> single =
-      poke(primitive(copy, 2)["matrices"]["accessor"], 4 * 36, {0, 0, 0x80, 0xff});
-  ASSERT_FALSE(single);
-  EXPECT_NE(single.error().message.find("matrices: not a finite number at receiver 1, channel 0, "
-                                        "row 0, column 0"),
-            std::string::npos);
-  const Result<Asset> place = poke(primitive(copy, 1)["grid"]["positions"], 12, {0, 0, 0xc0, 0x7f});
-  ASSERT_FALSE(place);
-  EXPECT_NE(place.error().message.find("not a finite position at texel 1"), std::string::npos);
-  const Result<Asset> flag = poke(primitive(copy, 1)["grid"]["covered"], 4, {7});
-  ASSERT_FALSE(flag);
-  EXPECT_NE(flag.error().message.find("covered is 7"), std::string::npos);
 }
 
 TEST_F(AssetHostile, EveryTruncationIsRefused) {
@@ -292,27 +164,9 @@ TEST_F(AssetHostile, JsonTokensSwapped) {
 class BiScaleHostile : public AssetHostile {
  public:
   BiScaleHostile() : AssetHostile(biScale()) {}
-  static json& patch(json& document, int mesh) { return primitive(document, mesh)["biScale"]; }
 };
 
-TEST_F(BiScaleHostile, Members) {
-  EXPECT_TRUE(readChanged([](json&) {}));
-  expectRefused("rtt is 1, and the asset has 1", [](json& d) { patch(d, 0)["rtt"] = 1; });
-  expectRefused("rtt: is not an integer", [](json& d) { patch(d, 0)["rtt"] = -1; });
-  expectRefused("scale must be", [](json& d) { patch(d, 0)["scale"] = 0; });
-  expectRefused("tangents: is missing", [](json& d) { patch(d, 0).erase("tangents"); });
-  expectRefused("shadowed: 324 numbers where", [](json& d) { patch(d, 0)["bands"] = 2; });
-  expectRefused("takes light of 3 bands", [](json& d) { root(d)["bands"] = 2; });
-  expectRefused("idMap: 8 numbers for 3×2 texels",
-                [](json& d) { patch(d, 0)["idMap"]["width"] = 3; });
-  expectRefused("idMap.height: is not an integer",
-                [](json& d) { patch(d, 0)["idMap"]["height"] = 100000; });
-  expectRefused("tiles: is not an array of at most 2", [](json& d) {
-    patch(d, 1)["tiles"] = {1, 2, 3};
-  });
-  expectRefused("tangent 0 is not", [](json& d) {
-    patch(d, 0)["tangents"] = d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
-  });
+TEST_F(BiScaleHostile, VectorsBesideItAreNotWritten) {
   asset_.transfer.meshes[0].bands = 3;
   asset_.transfer.meshes[0].channels = 1;
   asset_.transfer.meshes[0].vectors =
@@ -322,56 +176,10 @@ TEST_F(BiScaleHostile, Members) {
   EXPECT_NE(both.error().message.find("no vectors or matrices beside it"), std::string::npos);
 }
 
-TEST_F(BiScaleHostile, Rtts) {
-  const auto rtt = [](json& d) -> json& { return root(d)["rtts"][0]; };
-  expectRefused("rtts: is not an array", [](json& d) { root(d)["rtts"] = 5; });
-  expectRefused("width: is not an integer from 1", [&](json& d) { rtt(d)["width"] = 0; });
-  expectRefused("views: is not an integer", [&](json& d) { rtt(d)["views"] = 65; });
-  expectRefused("numbers where", [&](json& d) { rtt(d)["views"] = 3; });
-  expectRefused("size is not two", [&](json& d) { rtt(d)["size"] = {1, -1}; });
-  expectRefused("size: is not an array of 2", [&](json& d) { rtt(d)["size"] = {1}; });
-  expectRefused("values.scales: is missing", [&](json& d) { rtt(d)["values"].erase("scales"); });
-  expectRefused("encoding: is none of", [&](json& d) { rtt(d)["values"]["encoding"] = "int4"; });
-}
-
 class KeptShadowedHostile : public AssetHostile {
  public:
   KeptShadowedHostile() : AssetHostile(keptShadowed()) {}
-  static json& kept(json& document, int mesh) { return primitive(document, mesh)["shadowed"]; }
 };
-
-TEST_F(KeptShadowedHostile, Members) {
-  EXPECT_TRUE(readChanged([](json&) {}));
-  expectRefused("shadowed: is not an object", [](json& d) { kept(d, 0) = 3; });
-  expectRefused("shadowed.vectors: is not an object", [](json& d) { kept(d, 0)["vectors"] = 1; });
-  expectRefused("shadowed.vectors.channels: is missing",
-                [](json& d) { kept(d, 0)["vectors"].erase("channels"); });
-  expectRefused("shadowed.vectors: channels is 2, not 1 or 3",
-                [](json& d) { kept(d, 0)["vectors"]["channels"] = 2; });
-  expectRefused("shadowed.vectors: 36 numbers where 4 receivers × 3 channels × 9 coefficients",
-                [](json& d) { kept(d, 0)["vectors"]["channels"] = 3; });
-  expectRefused("shadowed.vectors.encoding: is neither",
-                [](json& d) { kept(d, 0)["vectors"]["encoding"] = "snorm8"; });
-  expectRefused("shadowed.matrices: 324 numbers where",
-                [](json& d) { kept(d, 1)["matrices"]["channels"] = 3; });
-  expectRefused("shadowed.matrices: 36 numbers where", [](json& d) {
-    kept(d, 1)["matrices"]["accessor"] = kept(d, 1)["vectors"]["accessor"];
-  });
-  expectRefused("shadowed.matrices.accessor: is not an integer",
-                [](json& d) { kept(d, 1)["matrices"]["accessor"] = -1; });
-  // Half of it would be shown with the other half of the interreflected one.
-  expectRefused("must hold vectors and matrices where the primitive does",
-                [](json& d) { kept(d, 1).erase("vectors"); });
-  expectRefused("must hold vectors and matrices where the primitive does",
-                [](json& d) { kept(d, 0)["matrices"] = kept(d, 1)["matrices"]; });
-  expectRefused("must hold vectors and matrices where the primitive does",
-                [](json& d) { primitive(d, 0).erase("vectors"); });
-  expectRefused("kept beside interreflected transfer alone, and this asset's is shadowed",
-                [](json& d) { root(d)["transfer"] = "shadowed"; });
-  // A member that says nothing is passed over, as is one that a later version may add.
-  EXPECT_TRUE(readChanged([](json& d) { kept(d, 0) = json::object(); }));
-  EXPECT_TRUE(readChanged([](json& d) { kept(d, 0)["texture"] = 7; }));
-}
 
 TEST_F(KeptShadowedHostile, NumbersThatAreNotFinite) {
   asset_.transfer.meshes[1].shadowed.matrices.single[81 * 2 + 9 * 4 + 7] = std::nanf("");

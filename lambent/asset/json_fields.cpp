@@ -30,10 +30,11 @@ const json* JsonFields::find(std::string_view key) {
 std::int64_t JsonFields::integer(std::string_view key, std::int64_t least, std::int64_t most) {
   const json* value = find(key);
   if (!value) return least;
-  // A number such as 1e400 or 2^63 does not fit: compare as double before converting.
-  const bool fits = value->is_number_integer() && value->get<double>() >= double(least) &&
-                    value->get<double>() <= double(most);
-  if (fits) return value->get<std::int64_t>();
+  // A number such as 1e400 or 2^63 does not fit: compare as double before converting. 3.0 is an
+  // integer, as JSON schema and JavaScript have it.
+  const double number = value->is_number() ? value->get<double>() : std::nan("");
+  if (number >= double(least) && number <= double(most) && number == std::floor(number))
+    return std::int64_t(number);
   complain(key, "is not an integer from " + std::to_string(least) + " to " + std::to_string(most));
   return least;
 }

@@ -6,10 +6,12 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "lambent/asset/asset.h"
 #include "lambent/asset/check.h"
+#include "lambent/asset/check_gltf.h"
 #include "lambent/asset/json_fields.h"
 #include "lambent/asset/names.h"
 #include "lambent/asset/rtt_file.h"
@@ -60,6 +62,10 @@ class AccessorReader {
                       int componentCount) {
     static_assert(std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3>);
     const std::int64_t index = fields.integer(key, 0, std::numeric_limits<std::int32_t>::max());
+    if (!read_.insert(index).second) {
+      fields.complain(key, "accessor " + std::to_string(index) + " serves two members");
+      return {};
+    }
     const Result<AccessorView> view = file_.accessorView(index);
     if (!view) {
       // The message names the file; so will the one that this becomes a part of.
@@ -101,6 +107,8 @@ class AccessorReader {
       fields.complain("encoding", allowSnorm8 ? "is none of float16, float32 and snorm8"
                                               : "is neither float16 nor float32");
     numbers.encoding = encoding.value_or(Encoding::Float32);
+    if (numbers.encoding != Encoding::Snorm8 && fields.has("scales"))
+      fields.complain("scales", "are for snorm8 alone");
     switch (numbers.encoding) {
       case Encoding::Float16:
         numbers.half = read<std::uint16_t>(fields, "accessor", Component::UnsignedShort, 1);
@@ -124,6 +132,7 @@ class AccessorReader {
  private:
   const GltfFile& file_;
   double budget_ = 0.0;  ///< bytes
+  std::set<std::int64_t> read_;
 };
 
 /// "1.0" → checked against what this reader knows.
@@ -145,6 +154,12 @@ void checkVersion(const std::string& version, JsonFields& fields) {
     fields.complain("version", version + " is older than " + ours + ": bake the scene anew");
 }
 
+int channelsOf(JsonFields& fields) {
+  const auto channels = int(fields.integer("channels", 1, 3));
+  if (channels == 2) fields.complain("channels", "is 2, not 1 or 3");
+  return channels;
+}
+
 EncodedField rootOf(JsonFields root) {
   EncodedField field;
   checkVersion(root.string("version"), root);  // first: the rest may mean something else
@@ -161,6 +176,7 @@ EncodedField rootOf(JsonFields root) {
   if (parsed.ec != std::errc() || parsed.ptr != seed.data() + seed.size())
     root.complain("seed", "is not a string of decimal digits, below 2^64");
   field.passEnergy = root.numbers("passEnergy", 1u << 20);
+  if (root.has("generator")) root.string("generator");
   return field;
 }
 
@@ -209,6 +225,8 @@ encode::EncodedBiScale biScaleOf(JsonFields object, AccessorReader& accessors) {
   biScale.bands = int(object.integer("bands", 1, sh::kMaxBands));
   biScale.scale = float(object.number("scale", 0.0, std::numeric_limits<float>::max()));
   biScale.tangents = accessors.read<Vec3>(object, "tangents", Component::Float, 3);
+  if (object.has("idMap") == object.has("tiles"))
+    object.complain("idMap", "exactly one of idMap and tiles says where the patch stands");
   if (object.has("idMap")) biScale.idMap = idMapOf(object.object("idMap"), accessors);
   if (object.has("tiles")) biScale.tiles = pairOf(object, "tiles");
   if (object.has("shadowed")) {
@@ -217,7 +235,7 @@ encode::EncodedBiScale biScaleOf(JsonFields object, AccessorReader& accessors) {
   }
   if (object.has("interreflected")) {
     JsonFields matrices = object.object("interreflected");
-    biScale.channels = int(matrices.integer("channels", 1, 3));
+    biScale.channels = channelsOf(matrices);
     biScale.interreflected = accessors.numbers(matrices, true);
   }
   return biScale;
@@ -227,12 +245,12 @@ encode::EncodedShadowed shadowedOf(JsonFields object, AccessorReader& accessors)
   encode::EncodedShadowed shadowed;
   if (object.has("vectors")) {
     JsonFields vectors = object.object("vectors");
-    shadowed.channels = int(vectors.integer("channels", 1, 3));
+    shadowed.channels = channelsOf(vectors);
     shadowed.vectors = accessors.numbers(vectors);
   }
   if (object.has("matrices")) {
     JsonFields matrices = object.object("matrices");
-    shadowed.matrixChannels = int(matrices.integer("channels", 1, 3));
+    shadowed.matrixChannels = channelsOf(matrices);
     shadowed.matrices = accessors.numbers(matrices);
   }
   return shadowed;
@@ -251,10 +269,12 @@ EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Me
   } else {
     object.complain("layout", "is neither vertices nor texels");
   }
+  if (transfer.layout == Layout::Vertices && object.has("grid"))
+    object.complain("grid", "is for the layout texels alone");
   if (object.has("vectors")) {
     JsonFields vectors = object.object("vectors");
     transfer.bands = int(vectors.integer("bands", 1, sh::kMaxBands));
-    transfer.channels = int(vectors.integer("channels", 1, 3));
+    transfer.channels = channelsOf(vectors);
     const auto albedo = albedoNamed(vectors.string("albedo"));
     if (!albedo) vectors.complain("albedo", "is neither included nor baseColor");
     transfer.albedo = albedo.value_or(transfer.albedo);
@@ -264,7 +284,7 @@ EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Me
     JsonFields matrices = object.object("matrices");
     transfer.outBands = int(matrices.integer("outBands", 1, sh::kMaxBands));
     transfer.inBands = int(matrices.integer("inBands", 1, sh::kMaxBands));
-    transfer.matrixChannels = int(matrices.integer("channels", 1, 3));
+    transfer.matrixChannels = channelsOf(matrices);
     const std::vector<double> glossy = matrices.numbers("glossy", 3);
     if (glossy.size() != 3) matrices.complain("glossy", "is not an array of 3 numbers");
     for (std::size_t c = 0; c < glossy.size(); ++c) transfer.glossy[int(c)] = float(glossy[c]);
@@ -275,37 +295,6 @@ EncodedMesh meshOf(JsonFields object, AccessorReader& accessors, const scene::Me
   if (object.has("shadowed")) transfer.shadowed = shadowedOf(object.object("shadowed"), accessors);
   if (object.has("biScale")) transfer.biScale = biScaleOf(object.object("biScale"), accessors);
   return transfer;
-}
-
-/// Transfer belongs to a place in the scene: a node that moves its mesh elsewhere takes the
-/// harmonics' frame along, which version 1 of the extension does not say how to do.
-bool staysInPlace(const json& nodes, const std::vector<int>& parents, int node) {
-  static const json kIdentity = json::parse("[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]");
-  static const json kZero = json::parse("[0,0,0]"), kOne = json::parse("[1,1,1]"),
-                    kNoTurn = json::parse("[0,0,0,1]");
-  const auto isOrAbsent = [](const json& object, const char* key, const json& expected) {
-    const json* value = member(object, key);
-    return !value || *value == expected;
-  };
-  for (std::size_t steps = 0; node >= 0 && steps <= parents.size(); ++steps) {
-    const json& object = nodes[std::size_t(node)];
-    if (!isOrAbsent(object, "matrix", kIdentity) || !isOrAbsent(object, "translation", kZero) ||
-        !isOrAbsent(object, "rotation", kNoTurn) || !isOrAbsent(object, "scale", kOne))
-      return false;
-    node = parents[std::size_t(node)];
-  }
-  return true;
-}
-
-std::vector<int> parentsOf(const json& nodes) {
-  std::vector<int> parents(nodes.size(), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (const json* children = member(nodes[i], "children"); children && children->is_array())
-      for (const json& child : *children)
-        if (child.is_number_integer() && child.get<std::int64_t>() >= 0 &&
-            child.get<std::uint64_t>() < parents.size())
-          parents[child.get<std::size_t>()] = int(i);
-  return parents;
 }
 
 }  // namespace
@@ -330,6 +319,7 @@ Result<Asset> read(const std::filesystem::path& path) {
   asset.transfer = rootOf(JsonFields(*root, "extensions." + kExtension, fault));
   if (!fault.empty()) return report::badInput(name + ": " + fault);
 
+  if (Status status = checkGltf(*file); !status) return status.error();
   Result<scene_io::LoadedGltf> loaded = scene_io::loadGltf(*file, {.keepAllVertices = true});
   if (!loaded) return loaded.error();
   asset.scene = std::move(loaded->loaded.scene);
@@ -347,8 +337,6 @@ Result<Asset> read(const std::filesystem::path& path) {
       asset.transfer.rtts.push_back(std::move(rtt));
     }
   }
-  const json& nodes = document["nodes"];
-  const std::vector<int> parents = parentsOf(nodes);
   for (std::size_t i = 0; i < asset.scene.meshes.size(); ++i) {
     const auto& origin = loaded->origins[i];
     const json& primitive =
@@ -360,20 +348,11 @@ Result<Asset> read(const std::filesystem::path& path) {
     }
     const std::string place = "meshes[" + std::to_string(origin.mesh) + "].primitives[" +
                               std::to_string(origin.primitive) + "].extensions." + kExtension;
-    if (!staysInPlace(nodes, parents, origin.node))
-      return report::badInput(
-          name + ": nodes[" + std::to_string(origin.node) +
-          "]: moves a mesh away from where its transfer was baked: bake the scene as "
-          "it stands now");
-    if (member(nodes[std::size_t(origin.node)], "skin") || member(primitive, "targets"))
-      return report::badInput(name + ": nodes[" + std::to_string(origin.node) +
-                              "]: a skin or morph targets deform a mesh with baked transfer: "
-                              "remove them, or bake the deformed mesh");
     const scene::Mesh& mesh = asset.scene.meshes[i];
     EncodedMesh transfer = meshOf(JsonFields(*object, place, fault), accessors, mesh);
     if (!fault.empty()) return report::badInput(name + ": " + fault);
     if (const auto wrong = faultOf(transfer, mesh, asset.transfer))
-      return report::badInput(name + ": " + place + ": " + *wrong);
+      return report::badInput(name + ": " + place + "." + *wrong);  // it begins with the member
     asset.transfer.meshes.push_back(std::move(transfer));
   }
   return asset;

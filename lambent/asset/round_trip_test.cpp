@@ -185,6 +185,18 @@ TEST(AssetWrite, RefusesWhatItCouldNotRead) {
   asset = unoccludedSquare();
   asset.transfer.bands = 2;
   refused(asset, "takes light of 3 bands");
+  asset = everyLayout();
+  asset.scene.meshes[1].normals.clear();
+  refused(asset, "0 normals for 4 vertices with transfer");
+  asset = everyLayout();
+  asset.scene.meshes[3].normals[2].x() = std::nanf("");
+  refused(asset, "mesh 3 (\"mirror\"): a position, normal, texture coordinate or colour is not");
+  asset = biScale();
+  asset.transfer.meshes[1].biScale->tiles.y() = 0.0f;
+  refused(asset, "biScale.tiles: must be finite and not 0");
+  asset = biScale();
+  asset.transfer.meshes[1].biScale->bands = 2;
+  refused(asset, "biScale.bands: is 2, and its RTT's 3");
 
   EXPECT_EQ(write(unoccludedSquare(), folder / "asset.gltf").error().kind, ErrorKind::BadUsage);
   EXPECT_EQ(write(unoccludedSquare(), folder / "no/such/folder.glb").error().kind,
