@@ -61,6 +61,7 @@ export class LambentLoaderPlugin {
       const place = parser.associations.get(object);
       const mesh = object as Mesh;
       if (!mesh.isMesh || place?.meshes === undefined) return;
+      if (!mesh.geometry.hasAttribute("position")) return; // nothing to see, says glTF
       const primitive = place.primitives ?? 0;
       const key = `${place.meshes}/${primitive}`;
       checkGeometry(mesh, key);
@@ -93,10 +94,15 @@ function checkGeometry({ geometry }: Mesh, key: string): void {
         throw new LambentFormatError(
           `${place}.indices: ${index.getX(i)} is no vertex: there are ${position.count}`,
         );
-  const values = (position as BufferAttribute).array;
-  for (let i = 0; i < values.length; ++i)
-    if (!Number.isFinite(values[i]))
-      throw new LambentFormatError(`${place}.attributes.POSITION: a number is not finite`);
+  for (const [name, key] of [
+    ["POSITION", "position"],
+    ["NORMAL", "normal"],
+  ]) {
+    const values = (geometry.getAttribute(key) as BufferAttribute | undefined)?.array ?? [];
+    for (let i = 0; i < values.length; ++i)
+      if (!Number.isFinite(values[i]))
+        throw new LambentFormatError(`${place}.attributes.${name}: a number is not finite`);
+  }
   if (!geometry.hasAttribute("normal")) geometry.computeVertexNormals();
   for (const name of ["normal", "uv", "color"])
     if (geometry.hasAttribute(name) && geometry.getAttribute(name).count !== position.count)

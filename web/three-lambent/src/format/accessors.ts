@@ -17,8 +17,10 @@ const kBytes = { 5120: 1, 5121: 1, 5123: 2, 5125: 4, 5126: 4 } as const;
 const kComponents = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 } as const;
 
 type ComponentType = keyof typeof kBytes;
+type Elements = Float32Array | Uint32Array | Uint16Array | Uint8Array | Int8Array;
 type ElementType = keyof typeof kComponents;
 
+const kMostIndex = 2 ** 31 - 1;
 const kMostCount = 2 ** 40; // beyond any file; keeps products exact
 
 function listOf(json: Record<string, unknown>, key: string): unknown[] {
@@ -27,18 +29,16 @@ function listOf(json: Record<string, unknown>, key: string): unknown[] {
 }
 
 export class AccessorReader {
-  private budget = 0;
+  /** Bytes that were asked for, and those that were there to be asked for: buffers, packed views. */
+  private asked = 0;
+  private readonly there = new Map<string, number>();
+  private readonly named = new Set<number>();
 
-  constructor(private readonly source: GltfSource) {
-    for (const buffer of listOf(source.json, "buffers")) {
-      const length = (buffer as { byteLength?: unknown } | null)?.byteLength;
-      if (typeof length === "number" && length > 0) this.budget += length;
-    }
-  }
+  constructor(private readonly source: GltfSource) {}
 
   /** The fields of `accessors[index]` that `fields.key` points to. */
   accessor(fields: Fields, key: string): Fields {
-    const index = fields.integer(key, 0, 2 ** 31);
+    const index = fields.integer(key, 0, kMostIndex);
     const list = listOf(this.source.json, "accessors");
     if (index >= list.length)
       fields.fail(key, `accessor ${index} does not exist: the file has ${list.length}`);
@@ -51,11 +51,11 @@ export class AccessorReader {
     elementBytes: number,
   ): Promise<{ buffer: ArrayBuffer; offset: number; stride: number }> {
     if (accessor.has("sparse")) accessor.fail("sparse", "is not allowed here");
-    const viewIndex = accessor.integer("bufferView", 0, 2 ** 31);
+    const viewIndex = accessor.integer("bufferView", 0, kMostIndex);
     const views = listOf(this.source.json, "bufferViews");
     if (viewIndex >= views.length)
       accessor.fail("bufferView", `is ${viewIndex}, but the file has ${views.length}`);
-    const view = new Fields(views[viewIndex], `bufferViews[${viewIndex}]`);
+    const view = new Fields(views[viewIndex], `${accessor.place}: bufferViews[${viewIndex}]`);
     const length = view.integer("byteLength", 0, kMostCount);
     const stride = view.has("byteStride")
       ? view.integer("byteStride", elementBytes, 1024)
@@ -69,32 +69,29 @@ export class AccessorReader {
         ? await this.source.bufferView(viewIndex)
         : view.fail("extensions", "compressed views cannot be read here");
       if (buffer.byteLength < length) view.fail("byteLength", "is more than was decompressed");
+      this.there.set(`view ${viewIndex}`, length);
       return { buffer, offset, stride };
     }
-    const buffer = await this.source.buffer(view.integer("buffer", 0, 2 ** 31));
+    const bufferIndex = view.integer("buffer", 0, kMostIndex);
+    const buffers = listOf(this.source.json, "buffers").length;
+    if (bufferIndex >= buffers)
+      view.fail("buffer", `is ${bufferIndex}, but the file has ${buffers}`);
+    const buffer = await this.source.buffer(bufferIndex);
+    this.there.set(`buffer ${bufferIndex}`, buffer.byteLength);
     const begin = view.has("byteOffset") ? view.integer("byteOffset", 0, kMostCount) : 0;
     if (begin + length > buffer.byteLength)
       view.fail("", "reaches beyond the end of its buffer: the file is cut off or damaged");
     return { buffer, offset: begin + offset, stride };
   }
 
-  /** Elements of the accessor that `fields.key` names, one after the other. */
-  async read(
-    fields: Fields,
-    key: string,
+  /** Elements of an accessor whose type is known, one after the other. */
+  private async gather(
+    accessor: Fields,
     component: ComponentType,
     type: ElementType,
-  ): Promise<Float32Array | Uint16Array | Uint8Array | Int8Array> {
-    const accessor = this.accessor(fields, key);
-    const found = [accessor.integer("componentType", 0, 65535), accessor.string("type")];
-    if (found[0] !== component || found[1] !== type)
-      accessor.fail("", `holds ${found[1]} of ${found[0]} where ${type} of ${component} is needed`);
-    const count = accessor.integer("count", 0, kMostCount);
+    count: number,
+  ): Promise<Elements> {
     const each = kComponents[type] * kBytes[component];
-    // Accessors that overlap could otherwise ask for any amount of memory.
-    this.budget -= count * each;
-    if (this.budget < 0)
-      accessor.fail("", "accessors overlap: together they are larger than the file's buffers");
     const { buffer, offset, stride } = await this.bytes(accessor, count, each);
 
     const make = (bytes: ArrayBuffer, at: number, length: number) =>
@@ -104,7 +101,9 @@ export class AccessorReader {
           ? new Uint16Array(bytes, at, length)
           : component === 5121
             ? new Uint8Array(bytes, at, length)
-            : new Int8Array(bytes, at, length);
+            : component === 5125
+              ? new Uint32Array(bytes, at, length)
+              : new Int8Array(bytes, at, length);
     const length = count * kComponents[type];
     if (stride === each && offset % kBytes[component] === 0) return make(buffer, offset, length);
     const packed = new Uint8Array(count * each);
@@ -112,6 +111,69 @@ export class AccessorReader {
     for (let i = 0; i < count; ++i)
       packed.set(from.subarray(offset + i * stride, offset + i * stride + each), i * each);
     return make(packed.buffer, 0, length);
+  }
+
+  /** Elements of the accessor that `fields.key` names, one after the other. */
+  async read(
+    fields: Fields,
+    key: string,
+    component: ComponentType,
+    type: ElementType,
+  ): Promise<Elements> {
+    const accessor = this.accessor(fields, key);
+    const index = fields.integer(key, 0, kMostIndex);
+    if (this.named.has(index)) fields.fail(key, `accessor ${index} serves two members`);
+    this.named.add(index);
+    const found = [accessor.integer("componentType", 0, 65535), accessor.string("type")];
+    if (found[0] !== component || found[1] !== type)
+      accessor.fail("", `holds ${found[1]} of ${found[0]} where ${type} of ${component} is needed`);
+    const count = accessor.integer("count", 0, kMostCount);
+    const elements = await this.gather(accessor, component, type, count);
+    // Accessors that overlap could otherwise ask for any amount of memory.
+    this.asked += elements.byteLength;
+    const there = [...this.there.values()].reduce((sum, bytes) => sum + bytes, 0);
+    if (this.asked > there)
+      accessor.fail("", "accessors overlap: together they are larger than the file's buffers");
+    return elements;
+  }
+
+  /**
+   * An attribute of a primitive, which others may share: how many elements of how many numbers it
+   * has, and these where they are plain floats (null: quantised, sparse or without bytes).
+   */
+  async attribute(
+    attributes: Fields,
+    name: "POSITION" | "NORMAL" | "TEXCOORD_0" | "COLOR_0",
+  ): Promise<{ count: number; width: number; floats: Float32Array | null }> {
+    const types = { POSITION: ["VEC3"], NORMAL: ["VEC3"], TEXCOORD_0: ["VEC2"] } as const;
+    const accessor = this.accessor(attributes, name);
+    const type = accessor.oneOf(
+      "type",
+      name === "COLOR_0" ? (["VEC3", "VEC4"] as const) : types[name],
+    );
+    const count = accessor.integer("count", 1, kMostCount);
+    const component = accessor.integer("componentType", 0, 65535);
+    if (component !== 5122 && !(component in kBytes))
+      accessor.fail("componentType", `is ${component}, which glTF does not know`);
+    const width = kComponents[type];
+    if (component !== 5126 || accessor.has("sparse") || !accessor.has("bufferView"))
+      return { count, width, floats: null };
+    const floats = (await this.gather(accessor, 5126, type, count)) as Float32Array;
+    return { count, width, floats };
+  }
+
+  /** Checks the indices of a primitive, which others may share. */
+  async checkIndices(primitive: Fields, vertices: number): Promise<void> {
+    const accessor: Fields = this.accessor(primitive, "indices");
+    accessor.oneOf("type", ["SCALAR"]);
+    const component = accessor.raw("componentType");
+    if (component !== 5121 && component !== 5123 && component !== 5125)
+      accessor.fail("componentType", `is ${JSON.stringify(component)}, not of unsigned numbers`);
+    const count = accessor.integer("count", 0, kMostCount);
+    const indices = await this.gather(accessor, component, "SCALAR", count);
+    for (const index of indices)
+      if (index >= vertices)
+        primitive.fail("indices", `${index} is no vertex: there are ${vertices}`);
   }
 
   /** Vectors of three floats, all finite; `count` of them. */
@@ -135,6 +197,8 @@ export class AccessorReader {
       "encoding",
       run > 0 ? (["float16", "float32", "snorm8"] as const) : (["float16", "float32"] as const),
     );
+    if (encoding !== "snorm8" && fields.has("scales"))
+      fields.fail("scales", "are for snorm8 alone");
     const component = { float16: 5123, float32: 5126, snorm8: 5120 } as const;
     const data = (await this.read(
       fields,

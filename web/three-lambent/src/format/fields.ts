@@ -3,6 +3,9 @@
 
 import { LambentFormatError } from "./description.js";
 
+/** The largest finite 32-bit float: what numbers become. */
+export const kFloatMax = (2 - 2 ** -23) * 2 ** 127;
+
 export type Json = Record<string, unknown>;
 
 function isObject(value: unknown): value is Json {
@@ -48,7 +51,8 @@ export class Fields {
     return value;
   }
 
-  number(key: string, least: number, most = Number.MAX_VALUE): number {
+  /** A number that stays finite as a 32-bit float. */
+  number(key: string, least: number, most = kFloatMax): number {
     const value = this.raw(key);
     if (typeof value !== "number" || !(value >= least && value <= most))
       this.fail(key, `is ${JSON.stringify(value)}, not a number that is finite and ≥ ${least}`);

@@ -7,7 +7,6 @@ import { AccessorReader, type GltfSource } from "./accessors.js";
 import {
   kExtensionName,
   kFormatMajor,
-  LambentFormatError,
   type AssetDescription,
   type BiScale,
   type Grid,
@@ -15,13 +14,20 @@ import {
   type Matrices,
   type PrimitiveTransfer,
   type RadianceTransferTexture,
+  type TransferKind,
   type Vectors,
 } from "./description.js";
-import { Fields } from "./fields.js";
+import { Fields, kFloatMax } from "./fields.js";
+import { findCarriers, type Carrier } from "./scene.js";
 
 const kLargestGrid = 32768;
 const kLargestRtt = 4096;
 const kLargestViews = 64;
+const kMostPasses = 2 ** 20;
+const kMostCounted = 2 ** 31 - 1;
+/** How far a tangent may be from unit length, and from right angles with its normal. */
+const kTangentLength = 1e-3;
+const kTangentLean = 1e-2;
 
 /** Whether a document says that it carries transfer. */
 export function hasTransfer(json: unknown): boolean {
@@ -93,7 +99,8 @@ async function readMatrices(
   const outBands = fields.integer("outBands", 1, kMaxBands);
   const inBands = bandsOf(fields, "inBands", most);
   const glossy = fields.numbers("glossy", 3) as [number, number, number];
-  if (glossy.some((k) => k < 0)) fields.fail("glossy", "is below 0");
+  if (!glossy.every((k) => k >= 0 && k <= kFloatMax))
+    fields.fail("glossy", "is below 0, or beyond what a float holds");
   const lobeExponent = fields.number("lobeExponent", 0);
   const shape = { outBands, inBands };
   const numbers = await matrixNumbers(fields, accessors, receivers, shape);
@@ -106,7 +113,11 @@ async function readShadowed(
   accessors: AccessorReader,
   receivers: number,
   beside: { vectors: Vectors | null; matrices: Matrices | null },
+  kind: TransferKind,
 ): Promise<PrimitiveTransfer["shadowed"]> {
+  if (!fields.has("vectors") && !fields.has("matrices")) return null; // it says nothing
+  if (kind !== "interreflected")
+    fields.fail("", `kept beside interreflected transfer alone, and this asset's is ${kind}`);
   for (const key of ["vectors", "matrices"] as const)
     if (fields.has(key) !== (beside[key] !== null))
       fields.fail(key, fields.has(key) ? "has none beside it to be shadowed" : "is missing");
@@ -160,21 +171,30 @@ async function readMacro(
 async function readBiScale(
   fields: Fields,
   accessors: AccessorReader,
-  receivers: number,
+  { vertices: receivers, normals }: Carrier,
   rtts: readonly RadianceTransferTexture[],
   most: number,
 ): Promise<BiScale> {
-  const rtt = fields.integer("rtt", 0, 2 ** 31);
+  const rtt = fields.integer("rtt", 0, kMostCounted);
   if (rtt >= rtts.length) fields.fail("rtt", `is ${rtt}, but the asset has ${rtts.length}`);
   const bands = bandsOf(fields, "bands", most);
+  if (bands !== rtts[rtt].bands)
+    fields.fail("bands", `is ${bands}, and its RTT's ${rtts[rtt].bands}`);
   const scale = fields.number("scale", 0);
-  if (scale === 0) fields.fail("scale", "is 0");
+  if (Math.fround(scale) === 0) fields.fail("scale", "is 0");
   const tangents = await accessors.vectors(fields, "tangents", receivers);
   for (let i = 0; i < receivers; ++i) {
-    const length = Math.hypot(tangents[3 * i], tangents[3 * i + 1], tangents[3 * i + 2]);
-    if (Math.abs(length - 1) > 1e-3)
-      fields.fail("tangents", `that of vertex ${i} is not of unit length`);
+    const [x, y, z] = tangents.subarray(3 * i, 3 * i + 3);
+    const [nx, ny, nz] = normals ? normals.subarray(3 * i, 3 * i + 3) : [0, 0, 0];
+    const lean = (x * nx + y * ny + z * nz) / (Math.hypot(nx, ny, nz) || 1);
+    if (Math.abs(Math.hypot(x, y, z) - 1) > kTangentLength || Math.abs(lean) > kTangentLean)
+      fields.fail(
+        "tangents",
+        `that of vertex ${i} is not of unit length at right angles to the normal`,
+      );
   }
+  if (fields.has("idMap") === fields.has("tiles"))
+    fields.fail("idMap", "exactly one of idMap and tiles says where the patch stands");
   let idMap: BiScale["idMap"] = null;
   if (fields.has("idMap")) {
     const map = fields.object("idMap");
@@ -188,7 +208,8 @@ async function readBiScale(
   }
   let tiles: [number, number] = [1, 1];
   if (fields.has("tiles")) tiles = fields.numbers("tiles", 2) as [number, number];
-  else if (!idMap) fields.fail("", "has neither an idMap nor tiles");
+  if (!tiles.map(Math.fround).every((t) => Number.isFinite(t) && t !== 0))
+    fields.fail("tiles", "must be finite and not 0");
   let shadowed: MacroMatrices | null = null;
   if (fields.has("shadowed"))
     shadowed = await readMacro(fields.object("shadowed"), accessors, receivers, bands, 1);
@@ -210,7 +231,9 @@ async function readRtt(
   const views = fields.integer("views", 1, kLargestViews);
   const bands = fields.integer("bands", 1, kMaxBands);
   const size = fields.numbers("size", 2) as [number, number];
-  if (!(size[0] > 0 && size[1] > 0)) fields.fail("size", "is not two numbers above 0");
+  if (!size.map(Math.fround).every((metres) => metres > 0 && Number.isFinite(metres)))
+    fields.fail("size", "is not two numbers above 0");
+  fields.number("depth", 0);
   const plane = width * height * views * views * 3;
   const words = `${bands ** 2} coefficients × ${width}×${height} positions × ${views}×${views} views × 3`;
   const numbers = await accessors.numbers(
@@ -224,25 +247,17 @@ async function readRtt(
 }
 
 async function readPrimitive(
-  fields: Fields,
+  carrier: Carrier,
   accessors: AccessorReader,
-  primitive: Fields,
-  rtts: readonly RadianceTransferTexture[],
-  bands: number,
+  asset: AssetDescription,
 ): Promise<PrimitiveTransfer> {
-  const attributes = primitive.object("attributes");
-  const vertices = accessors.accessor(attributes, "POSITION").integer("count", 1, 2 ** 32);
-  if (primitive.has("mode") && primitive.integer("mode", 0, 6) !== 4)
-    primitive.fail("mode", "is not triangles, which is all that transfer is baked for");
-  if (primitive.has("targets"))
-    primitive.fail("targets", "morph targets deform a mesh with baked transfer: remove them");
+  const { transfer: fields, vertices } = carrier;
+  const { bands } = asset;
   const layout = fields.oneOf("layout", ["vertices", "texels"]);
+  if (layout === "vertices" && fields.has("grid"))
+    fields.fail("grid", "is for the layout texels alone");
   const grid = layout === "texels" ? await readGrid(fields.object("grid"), accessors) : null;
   const receivers = grid ? grid.width * grid.height : vertices;
-  const biScaleHere = fields.has("biScale");
-  if ((grid || biScaleHere) && !attributes.has("TEXCOORD_0"))
-    primitive.fail("attributes", "TEXCOORD_0 is missing, which transfer is looked up with");
-
   const pair = {
     vectors: fields.has("vectors")
       ? await readVectors(fields.object("vectors"), accessors, receivers, bands)
@@ -251,61 +266,31 @@ async function readPrimitive(
       ? await readMatrices(fields.object("matrices"), accessors, receivers, bands)
       : null,
   };
-  const shadowed =
-    fields.has("shadowed") && !biScaleHere
-      ? await readShadowed(fields.object("shadowed"), accessors, receivers, pair)
-      : null;
+  const shadowed = fields.has("shadowed")
+    ? await readShadowed(fields.object("shadowed"), accessors, receivers, pair, asset.transfer)
+    : null;
   let biScale: BiScale | null = null;
-  if (biScaleHere) {
+  if (fields.has("biScale")) {
     if (layout !== "vertices") fields.fail("biScale", "its receivers must be vertices");
     if (pair.vectors || pair.matrices) fields.fail("biScale", "has vectors or matrices beside it");
     const object = fields.object("biScale");
-    biScale = await readBiScale(object, accessors, receivers, rtts, bands);
+    biScale = await readBiScale(object, accessors, carrier, asset.rtts, bands);
   }
   return { layout, receivers, ...pair, shadowed, grid, biScale };
 }
 
-/** Transfer belongs to a place in the scene: no node may carry its mesh elsewhere. */
-function checkNodes(json: Record<string, unknown>, carriers: ReadonlySet<number>): void {
-  const nodes = Array.isArray(json.nodes) ? (json.nodes as unknown[]) : [];
-  const parents = new Map<number, number>();
-  nodes.forEach((node, i) => {
-    const children = (node as { children?: unknown } | null)?.children;
-    if (Array.isArray(children))
-      for (const child of children) if (Number.isInteger(child)) parents.set(child, i);
-  });
-  const identity = {
-    matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
-    translation: [0, 0, 0],
-    rotation: [0, 0, 0, 1],
-    scale: [1, 1, 1],
-  };
-  nodes.forEach((node, i) => {
-    const object = node as Record<string, unknown> | null;
-    if (!object || !carriers.has(object.mesh as number)) return;
-    if (object.skin !== undefined)
-      throw new LambentFormatError(
-        `nodes[${i}].skin: deforms a mesh with baked transfer: remove it, or bake the deformed mesh`,
-      );
-    let at: number | undefined = i;
-    for (let steps = 0; at !== undefined && steps <= nodes.length; ++steps) {
-      const here = nodes[at] as Record<string, unknown> | null;
-      for (const [key, expected] of Object.entries(identity)) {
-        const value = here?.[key];
-        const same =
-          value === undefined ||
-          (Array.isArray(value) &&
-            value.length === expected.length &&
-            value.every((v, k) => v === expected[k]));
-        if (!same)
-          throw new LambentFormatError(
-            `nodes[${at}].${key}: moves a mesh away from where its transfer was baked: ` +
-              "bake the scene as it stands now",
-          );
-      }
-      at = parents.get(at);
-    }
-  });
+/** What describes the bake: evaluation does not need it, but a file that lies is damaged. */
+function checkBake(root: Fields): void {
+  const seed = root.string("seed");
+  if (!/^[0-9]{1,20}$/.test(seed) || BigInt(seed) >= 2n ** 64n)
+    root.fail("seed", "is not a string of decimal digits, below 2^64");
+  const energy = root.raw("passEnergy");
+  if (
+    !Array.isArray(energy) ||
+    energy.length > kMostPasses ||
+    !energy.every((e) => typeof e === "number" && Number.isFinite(e))
+  )
+    root.fail("passEnergy", `is not an array of at most ${kMostPasses} finite numbers`);
 }
 
 /**
@@ -315,10 +300,10 @@ function checkNodes(json: Record<string, unknown>, carriers: ReadonlySet<number>
  */
 export async function readTransfer(source: GltfSource): Promise<AssetDescription> {
   const { json } = source;
-  const root = new Fields(
-    (json.extensions as Record<string, unknown>)[kExtensionName],
-    `extensions.${kExtensionName}`,
-  );
+  const extensions = new Fields(json.extensions ?? {}, "extensions");
+  if (!extensions.has(kExtensionName))
+    extensions.fail(kExtensionName, "is missing: an ordinary glTF file, without transfer");
+  const root = extensions.object(kExtensionName);
   const version = checkVersion(root); // first: the rest may mean something else
   const transfer = root.oneOf("transfer", ["unshadowed", "shadowed", "interreflected"]);
   root.oneOf("frame", ["scene"]);
@@ -329,41 +314,20 @@ export async function readTransfer(source: GltfSource): Promise<AssetDescription
     transfer,
     bands,
     generator: root.has("generator") ? root.string("generator") : "",
-    directions: root.integer("directions", 0, 2 ** 31),
-    bounces: root.integer("bounces", 0, 2 ** 31),
+    directions: root.integer("directions", 0, kMostCounted),
+    bounces: root.integer("bounces", 0, kMostCounted),
     rtts: [],
     primitives: new Map(),
   };
+  checkBake(root);
+  const carriers = await findCarriers(json, accessors);
   if (root.has("rtts")) {
     const list = root.raw("rtts");
     const rtts: unknown[] = Array.isArray(list) ? list : root.fail("rtts", "is not an array");
     for (const [i, rtt] of rtts.entries())
       description.rtts.push(await readRtt(new Fields(rtt, `${root.place}.rtts[${i}]`), accessors));
   }
-  const carriers = new Set<number>();
-  const meshes = Array.isArray(json.meshes) ? (json.meshes as unknown[]) : [];
-  for (const [m, mesh] of meshes.entries()) {
-    const primitives = (mesh as { primitives?: unknown } | null)?.primitives;
-    if (!Array.isArray(primitives)) continue;
-    for (const [p, value] of primitives.entries()) {
-      const place = `meshes[${m}].primitives[${p}]`;
-      const object = (value as { extensions?: Record<string, unknown> } | null)?.extensions?.[
-        kExtensionName
-      ];
-      if (object === undefined) continue;
-      carriers.add(m);
-      description.primitives.set(
-        `${m}/${p}`,
-        await readPrimitive(
-          new Fields(object, `${place}.extensions.${kExtensionName}`),
-          accessors,
-          new Fields(value, place),
-          description.rtts,
-          bands,
-        ),
-      );
-    }
-  }
-  checkNodes(json, carriers);
+  for (const carrier of carriers)
+    description.primitives.set(carrier.key, await readPrimitive(carrier, accessors, description));
   return description;
 }
