@@ -18,10 +18,19 @@ struct Finding {
 
 using Findings = std::vector<Finding>;
 
+/// What a stage made, and what it noticed on the way. A stage that can fail returns
+/// Result<WithFindings<T>>: what it noticed before it failed is in the error's message or nowhere.
+template <class T>
+struct WithFindings {
+  T value;
+  Findings findings;
+};
+
 }  // namespace lambent::report
 
 namespace lambent {
 using report::Finding;
 using report::Findings;
 using report::Severity;
+using report::WithFindings;
 }  // namespace lambent
