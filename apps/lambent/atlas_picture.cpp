@@ -8,7 +8,7 @@ namespace lambent::tool {
 namespace {
 
 constexpr int kMostTexels = 1024;  ///< a side of each half
-constexpr std::uint32_t kOutside = synthesis::kNoChart;
+constexpr std::uint32_t kOutside = atlas::kNoChart;
 
 Rgb chartColour(std::uint32_t chart) {
   math::Random random(0x636861727473, chart);
@@ -18,11 +18,11 @@ Rgb chartColour(std::uint32_t chart) {
 
 }  // namespace
 
-Status writeAtlasPicture(const synthesis::Atlas& atlas, const asset::Asset& asset,
-                         std::uint32_t mesh, const std::filesystem::path& path) {
+Status writeAtlasPicture(const atlas::Atlas& atlas, const asset::Asset& asset, std::uint32_t mesh,
+                         const std::filesystem::path& path) {
   const synthesis::IdMap& map = *asset.transfer.meshes[mesh].biScale->idMap;
   const int side = std::min(kMostTexels, map.width);
-  const std::vector<std::uint32_t> charts = synthesis::chartOfTexel(atlas, map.width);
+  const std::vector<std::uint32_t> charts = atlas::chartOfTexel(atlas, map.width);
   image::Image picture(2 * side, side);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {

@@ -5,13 +5,13 @@
 #include <filesystem>
 
 #include "lambent/asset/asset.h"
+#include "lambent/atlas/atlas.h"
 #include "lambent/report/result.h"
-#include "lambent/synthesis/atlas.h"
 
 namespace lambent::tool {
 
 /// Left: a colour for each chart. Right: the id map, q as red and green, dilated texels darker.
-Status writeAtlasPicture(const synthesis::Atlas& atlas, const asset::Asset& asset,
-                         std::uint32_t mesh, const std::filesystem::path& path);
+Status writeAtlasPicture(const atlas::Atlas& atlas, const asset::Asset& asset, std::uint32_t mesh,
+                         const std::filesystem::path& path);
 
 }  // namespace lambent::tool

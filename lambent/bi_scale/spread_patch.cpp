@@ -172,7 +172,7 @@ struct Spreader {
   Status bySynthesis(std::uint32_t index, SpreadReport& report, Placed& placed,
                      std::vector<Vec3>& tangents) {
     announce(progress, "charts");
-    auto atlas = synthesis::makeAtlas(scene.meshes[index], options.atlas, findings, progress);
+    auto atlas = atlas::makeAtlas(scene.meshes[index], options.atlas, findings, progress);
     if (!atlas) return named(atlas.error(), scene.meshes[index], index);
     const int material = scene.meshes[index].material;
     scene.meshes[index] = atlas->mesh;

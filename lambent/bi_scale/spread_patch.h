@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "lambent/asset/asset.h"
+#include "lambent/atlas/atlas.h"
 #include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
-#include "lambent/synthesis/atlas.h"
 #include "lambent/synthesis/tangent_field.h"
 #include "lambent/transport/bake.h"
 
@@ -36,7 +36,7 @@ struct SpreadOptions {
   /// itself within its period (a weave would be torn), to 0.5 for one that never does (stucco would
   /// show its tiles).
   std::optional<float> randomness;
-  synthesis::AtlasOptions atlas;  ///< its size is the id map's
+  atlas::AtlasOptions atlas;  ///< its size is the id map's
   std::uint64_t seed = 0;
   Rgb albedo =
       Rgb::Constant(0.5f);          ///< of the patch as a whole: what it sends on to other surfaces
@@ -64,7 +64,7 @@ struct SpreadReport {
 struct Spread {
   asset::Asset asset;
   std::vector<SpreadReport> reports;
-  std::vector<synthesis::Atlas> atlases;  ///< of Synthesized meshes, in the sequence of `reports`
+  std::vector<atlas::Atlas> atlases;  ///< of Synthesized meshes, in the sequence of `reports`
 };
 
 /// The patch's colours and relief take the place of the material, texture and vertex colours of the

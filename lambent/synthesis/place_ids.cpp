@@ -69,7 +69,7 @@ std::uint32_t shoot(const Tree& tree, const MesoMesh& mesh, const Vec3& at, cons
 
 /// Charts that hold no texel's centre get the texel in which their first triangle's middle lies,
 /// unless that is another's.
-void giveEveryChartATexel(const Atlas& atlas, scene::TexelMap& map) {
+void giveEveryChartATexel(const atlas::Atlas& atlas, scene::TexelMap& map) {
   std::vector<bool> seen(atlas.charts);
   for (std::size_t texel = 0; texel < map.size(); ++texel)
     if (map.covered(texel)) seen[atlas.chartOfTriangle[map.triangle[texel]]] = true;
@@ -96,8 +96,9 @@ std::uint16_t wrapped(double place) {
 
 }  // namespace
 
-Result<IdMap> placeIds(const Atlas& atlas, const MesoMesh& mesh, std::span<const Vec2> coordinates,
-                       const IdMapOptions& options, const Progress& progress) {
+Result<IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
+                       std::span<const Vec2> coordinates, const IdMapOptions& options,
+                       const Progress& progress) {
   if (options.size < 1 || options.size > 16384)
     return report::badUsage("an id map must have 1 to 16384 texels a side");
   if (options.neighbours < 1)

@@ -17,9 +17,10 @@
 namespace lambent::synthesis {
 namespace {
 
-Atlas atlasOf(const scene::Mesh& mesh, int size, bool ownUvs) {
+atlas::Atlas atlasOf(const scene::Mesh& mesh, int size, bool ownUvs) {
   Findings findings;
-  Result<Atlas> atlas = makeAtlas(mesh, {.size = size, .ownUvs = ownUvs}, findings, {});
+  Result<atlas::Atlas> atlas =
+      atlas::makeAtlas(mesh, {.size = size, .ownUvs = ownUvs}, findings, {});
   EXPECT_TRUE(atlas);
   return std::move(*atlas);
 }
@@ -48,7 +49,7 @@ int apart(int a, int b) {
 }
 
 TEST(PlaceIds, APlanesOwnCoordinatesComeBackToTheLastBit) {
-  const Atlas plane = atlasOf(scene::gridPlane(1, 1, 5, 5), 96, true);
+  const atlas::Atlas plane = atlasOf(scene::gridPlane(1, 1, 5, 5), 96, true);
   ASSERT_TRUE(plane.ownUvs);
   const MesoMesh mesh = scattered(2000, 0.0f, 1.0f, 1);
   const Vec2 patch(0.3f, 0.45f);
@@ -81,7 +82,7 @@ TEST(PlaceIds, ShootsAtTheSheetThatFacesTheSameWay) {
       scene::translated(scene::flipped(scene::gridPlane(1, 1, 1, 1)), Vec3(0, -1e-4f, 0))};
   for (Vec2& uv : sheets[0].uvs) uv.x() = 0.05f + 0.4f * uv.x();
   for (Vec2& uv : sheets[1].uvs) uv.x() = 0.55f + 0.4f * uv.x();
-  const Atlas atlas = atlasOf(scene::merge(sheets), 64, true);
+  const atlas::Atlas atlas = atlasOf(scene::merge(sheets), 64, true);
   ASSERT_TRUE(atlas.ownUvs);
   MesoMesh mesh = scattered(3000, 1e-4f, 1.0f, 2);
   const MesoMesh below = scattered(9000, -1e-4f, -1.0f, 3);
@@ -103,7 +104,7 @@ TEST(PlaceIds, ShootsAtTheSheetThatFacesTheSameWay) {
 }
 
 TEST(PlaceIds, OfTheNearestTakesTheOneNearestToTheNormalsLine) {
-  const Atlas plane = atlasOf(scene::gridPlane(1, 1, 1, 1), 8, true);
+  const atlas::Atlas plane = atlasOf(scene::gridPlane(1, 1, 1, 1), 8, true);
   MesoMesh mesh;
   add(mesh, Vec3(0.1f, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0));      // nearest to the point
   add(mesh, Vec3(0.01f, 0.2f, 0), Vec3(0, 1, 0), Vec3(1, 0, 0));  // nearest to the line
@@ -117,7 +118,7 @@ TEST(PlaceIds, OfTheNearestTakesTheOneNearestToTheNormalsLine) {
 
 TEST(PlaceIds, EveryOtherTexelHasTheNearestChartTexelsId) {
   const int size = 80;
-  const Atlas atlas = atlasOf(scene::icosphere(1.0f, 2), size, false);
+  const atlas::Atlas atlas = atlasOf(scene::icosphere(1.0f, 2), size, false);
   MesoMesh mesh;
   math::Random random(9, 9);
   std::vector<Vec2> q;
@@ -162,7 +163,7 @@ TEST(PlaceIds, AChartWithoutATexelsCentreStillHasATexel) {
   speck.triangles = {{0, 1, 2}};
   scene::Mesh parts[2] = {scene::gridPlane(1, 1, 1, 1), speck};
   for (Vec2& uv : parts[0].uvs) uv *= 0.5f;
-  const Atlas atlas = atlasOf(scene::merge(parts), 16, true);
+  const atlas::Atlas atlas = atlasOf(scene::merge(parts), 16, true);
   ASSERT_TRUE(atlas.ownUvs);
   MesoMesh mesh = scattered(500, 0.0f, 1.0f, 4);
   std::vector<Vec2> q(500, Vec2(0.2f, 0.2f));
@@ -176,7 +177,7 @@ TEST(PlaceIds, AChartWithoutATexelsCentreStillHasATexel) {
 }
 
 TEST(PlaceIds, RefusesWhatDoesNotFitTogether) {
-  const Atlas plane = atlasOf(scene::gridPlane(1, 1, 1, 1), 8, true);
+  const atlas::Atlas plane = atlasOf(scene::gridPlane(1, 1, 1, 1), 8, true);
   const MesoMesh mesh = scattered(10, 0.0f, 1.0f, 5);
   const std::vector<Vec2> q(10, Vec2::Zero());
   const auto kindOf = [&](const Result<IdMap>& result) {

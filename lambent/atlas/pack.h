@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "lambent/atlas/flatten.h"
 #include "lambent/report/result.h"
-#include "lambent/synthesis/flatten.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 /// What packing needs to know of a chart.
 struct PackShape {
@@ -34,4 +34,4 @@ struct PackOptions {
 /// BadUsage if the square is too small for so many charts with their gutters.
 Result<Packing> pack(const std::vector<PackShape>& shapes, const PackOptions& options);
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -1,4 +1,4 @@
-#include "lambent/synthesis/atlas.h"
+#include "lambent/atlas/atlas.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/shapes.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 using Vec2d = Eigen::Vector2d;
@@ -446,4 +446,4 @@ TEST(Atlas, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -5,9 +5,9 @@
 
 #include <Eigen/SparseCore>
 
-#include "lambent/synthesis/chart_patch.h"
+#include "lambent/atlas/chart_patch.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 /// Coordinates of all vertices: column 0 is x, column 1 is y.
 using Layout = Eigen::MatrixX2d;
@@ -46,4 +46,4 @@ class LayoutEnergy {
   double area_ = 0.0;
 };
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

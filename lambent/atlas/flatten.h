@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "lambent/synthesis/chart_patch.h"
+#include "lambent/atlas/chart_patch.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 using Vec2d = Eigen::Vector2d;
 
@@ -36,4 +36,4 @@ StretchSum stretchOf(const ChartPatch& patch, const std::vector<Vec2d>& layout);
 bool outlineCrossesItself(const std::vector<std::vector<std::uint32_t>>& loops,
                           const std::vector<Vec2d>& layout);
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -4,7 +4,7 @@
 // - sander2001texture: §3, L² stretch, by which charts are judged, and reported.
 // The steps: cut the surface into charts (charts.h), lay each out (flatten.h), cut those that will
 // not lie flat, over themselves, or stretch too far, pack (pack.h).
-#include "lambent/synthesis/atlas.h"
+#include "lambent/atlas/atlas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@
 #include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
-#include "lambent/synthesis/own_uvs.h"
-#include "lambent/synthesis/pack.h"
+#include "lambent/atlas/own_uvs.h"
+#include "lambent/atlas/pack.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 struct LaidOut {
@@ -209,4 +209,4 @@ Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Fi
   return atlas;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

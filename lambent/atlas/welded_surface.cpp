@@ -1,4 +1,4 @@
-#include "lambent/synthesis/welded_surface.h"
+#include "lambent/atlas/welded_surface.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 /// A triangle whose height is below this share of its longest edge is a line: floats that are read
@@ -98,4 +98,4 @@ WeldedSurface weldedSurface(const scene::Mesh& mesh) {
   return surface;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

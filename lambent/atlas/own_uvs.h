@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "lambent/synthesis/atlas.h"
-#include "lambent/synthesis/welded_surface.h"
+#include "lambent/atlas/atlas.h"
+#include "lambent/atlas/welded_surface.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 /// The mesh as it is, with the charts that its UVs make, or nothing and a finding that says why:
 /// - no-uvs: there are none.
@@ -17,4 +17,4 @@ namespace lambent::synthesis {
 std::optional<Atlas> atlasOfOwnUvs(const scene::Mesh& mesh, const WeldedSurface& surface,
                                    const AtlasOptions& options, Findings& findings);
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -5,7 +5,7 @@
 // Where we deviate: the number of charts is not asked for. Regions are bisected until their normals
 // agree well enough, then all grow together, and neighbours whose union still agrees are joined.
 // What "well enough" leaves wrong is settled by laying charts out and cutting those that stretch.
-#include "lambent/synthesis/charts.h"
+#include "lambent/atlas/charts.h"
 
 #include <algorithm>
 #include <cassert>
@@ -17,9 +17,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "lambent/synthesis/smooth_borders.h"
+#include "lambent/atlas/smooth_borders.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 /// Length of the mean normal below which a region is bisected: 1 for a plane, (1 + cos θ)/2 for the
@@ -333,4 +333,4 @@ std::vector<Chart> cutInTwo(const WeldedSurface& surface, const Chart& chart,
   return bisect(surface, chart, chartOf, scratch, 3);
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

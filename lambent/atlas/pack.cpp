@@ -4,7 +4,7 @@
 // free, into bays and holes of other charts too, in the best of eight directions. That costs no
 // more: a conflict tells how far to the right the chart must move at least, so that few places are
 // tried.
-#include "lambent/synthesis/pack.h"
+#include "lambent/atlas/pack.h"
 
 #include <algorithm>
 #include <array>
@@ -16,10 +16,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "lambent/atlas/touched_texels.h"
 #include "lambent/math/random.h"
-#include "lambent/synthesis/touched_texels.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 /// Texels that a chart comes this near to are its own: coordinates will be rounded to floats.
@@ -430,4 +430,4 @@ Result<Packing> pack(const std::vector<PackShape>& shapes, const PackOptions& op
   return std::move(*packing);
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -9,7 +9,7 @@
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 struct AtlasOptions {
   int size = 2048;              ///< texels a side of the map that will lie over it
@@ -53,4 +53,4 @@ struct GutterCount {
 };
 GutterCount countGutters(const Atlas& atlas, int size);
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -8,7 +8,7 @@
 #include "lambent/math/types.h"
 #include "lambent/scene/scene.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
@@ -30,4 +30,4 @@ struct WeldedSurface {
 
 WeldedSurface weldedSurface(const scene::Mesh& mesh);
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -7,7 +7,7 @@
 // - liu2017quasi: L-BFGS with a factored Laplacian for its first guess of the curvature.
 // Where we deviate from the bi-scale paper, which lays charts out in polygons on a circle
 // (sloan2003biscale §4.3): borders are free, so that charts keep their shape and stretch less.
-#include "lambent/synthesis/flatten.h"
+#include "lambent/atlas/flatten.h"
 
 #include <algorithm>
 #include <array>
@@ -18,9 +18,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
-#include "lambent/synthesis/layout_energy.h"
+#include "lambent/atlas/layout_energy.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 constexpr int kRigidSteps = 12;
@@ -301,4 +301,4 @@ std::optional<std::vector<Vec2d>> flatten(const ChartPatch& patch) {
   return result;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -1,9 +1,9 @@
-#include "lambent/synthesis/chart_patch.h"
+#include "lambent/atlas/chart_patch.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 /// A hole is closed if its border is below this share of the chart's outer border; a longer one
@@ -124,4 +124,4 @@ ChartPatch chartPatch(const WeldedSurface& surface, const Chart& chart,
   return patch;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lambent/synthesis/atlas.h"
-#include "lambent/synthesis/flatten.h"
-#include "lambent/synthesis/touched_texels.h"
+#include "lambent/atlas/atlas.h"
+#include "lambent/atlas/flatten.h"
+#include "lambent/atlas/touched_texels.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 /// Borders that lie on the line between two texels, but for rounding, touch one of them.
@@ -63,4 +63,4 @@ GutterCount countGutters(const Atlas& atlas, int size) {
   return count;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -6,7 +6,7 @@
 // Its terms: J, the 2×2 Jacobian of plane by surface, of singular values σ₁ ≥ σ₂;
 // σ₁² + σ₂² = |J|², and 1/σ₁² + 1/σ₂² = |J|² / det² J, which is twice the square of the L² stretch
 // (sander2001texture §3): the energy minimises stretch, and shrinking too.
-#include "lambent/synthesis/layout_energy.h"
+#include "lambent/atlas/layout_energy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 #include <Eigen/Geometry>
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 /// A triangle's height for the purpose of the layout is at least this share of its longest edge:
@@ -147,4 +147,4 @@ Layout LayoutEnergy::rigidTarget(const Layout& layout) const {
   return target;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

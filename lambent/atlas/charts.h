@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lambent/synthesis/welded_surface.h"
+#include "lambent/atlas/welded_surface.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 /// Triangles in rising sequence.
 using Chart = std::vector<std::uint32_t>;
@@ -21,4 +21,4 @@ std::vector<Chart> cutIntoCharts(const WeldedSurface& surface);
 std::vector<Chart> cutInTwo(const WeldedSurface& surface, const Chart& chart,
                             const std::vector<std::uint32_t>& chartOf);
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -5,7 +5,7 @@
 // Where we deviate: diffusion is a walk from triangle to triangle, not a solution of the heat
 // equation, so that it irons out teeth of a triangle's size whatever that is, and it hardly passes
 // creases.
-#include "lambent/synthesis/smooth_borders.h"
+#include "lambent/atlas/smooth_borders.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include <tbb/parallel_for.h>
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 constexpr int kRounds = 3;
@@ -131,4 +131,4 @@ std::vector<Chart> smoothBorders(const WeldedSurface& surface, const std::vector
   return result;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "lambent/synthesis/charts.h"
+#include "lambent/atlas/charts.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 struct ChartPatch {
   std::vector<Vec3d> positions;
@@ -28,4 +28,4 @@ ChartPatch chartPatch(const WeldedSurface& surface, const Chart& chart,
                       const std::vector<std::uint32_t>& chartOf,
                       std::vector<std::uint32_t>& numberOf);
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

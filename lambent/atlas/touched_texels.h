@@ -8,7 +8,7 @@
 
 #include "lambent/math/types.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 
 /// visit(y, x0, x1) for every row of texels that the segments a–b–c–… touch (closed if three or
 /// more), from the first column to the last between which the row's part of the convex hull lies.
@@ -42,4 +42,4 @@ void forTouchedRows(const Eigen::Vector2d (&p)[N], double margin, const Visit& v
   }
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas

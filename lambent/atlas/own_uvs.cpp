@@ -1,14 +1,14 @@
-#include "lambent/synthesis/own_uvs.h"
+#include "lambent/atlas/own_uvs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "lambent/atlas/flatten.h"
 #include "lambent/scene/diagnose.h"
-#include "lambent/synthesis/flatten.h"
 
-namespace lambent::synthesis {
+namespace lambent::atlas {
 namespace {
 
 /// The place of a welded vertex in a triangle's picture.
@@ -133,4 +133,4 @@ std::optional<Atlas> atlasOfOwnUvs(const scene::Mesh& mesh, const WeldedSurface&
   return atlas;
 }
 
-}  // namespace lambent::synthesis
+}  // namespace lambent::atlas
