@@ -115,7 +115,7 @@ class Stage {
     view_.unlit = unlit;
     renderer_.begin();
     expectOk(renderer_.add(view_));
-    expectOk(renderer_.show(window_.name(), 0.0f, radiometry::ToneCurve::Filmic));
+    expectOk(renderer_.show(window_.name(), 0.0f, tone::Curve::Filmic));
     glFinish();
   }
 

@@ -7,9 +7,9 @@
 #include "figures/relief.h"
 #include "figures/scenes.h"
 #include "figures/sheet.h"
-#include "lambent/image/compare.h"
 #include "lambent/meso/generators.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/tone/compare.h"
 
 namespace lambent::figures {
 
@@ -48,7 +48,7 @@ double mebibytes(const encode::Numbers& numbers) {
 }
 
 image::Comparison compared(const image::Image& test, const image::Image& reference) {
-  return orDie(image::compare(test, reference));
+  return orDie(tone::compare(test, reference));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "lambent/meso/generators.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/window.h"
+#include "lambent/tone/compare.h"
 #include "lambent/trace/ray_scene.h"
 
 namespace lambent::figures {
@@ -207,7 +208,7 @@ Distance distance(const image::Image& ours, const Truth& truth, int block) {
       orDie(image::compare(chosen(ours, truth.mask), chosen(truth.picture.mean, truth.mask)));
   const auto blocks = orDie(image::compare(blockMeans(ours, truth.mask, block),
                                            blockMeans(truth.picture.mean, truth.mask, block)));
-  const auto whole = orDie(image::compare(ours, truth.picture.mean));
+  const auto whole = orDie(tone::compare(ours, truth.picture.mean));
   const double own = std::sqrt(
       std::max(0.0, pixels.relativeRmse * pixels.relativeRmse - truth.noise * truth.noise));
   return {pixels.relativeRmse, own,         blocks.relativeRmse,

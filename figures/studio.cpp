@@ -10,9 +10,9 @@
 #include "lambent/image/io.h"
 #include "lambent/image/strip.h"
 #include "lambent/light/source.h"
-#include "lambent/radiometry/tone.h"
 #include "lambent/scene_io/load.h"
 #include "lambent/shade/picture.h"
+#include "lambent/tone/tone_curve.h"
 
 namespace lambent::figures {
 
@@ -66,7 +66,7 @@ image::Image pathTrace(const scene::Scene& scene, const light::Environment& envi
 }
 
 image::Image develop(const image::Image& linear, float exposureEv) {
-  const image::Image toned = radiometry::toneMap(linear, exposureEv, radiometry::ToneCurve::Filmic);
+  const image::Image toned = tone::toneMap(linear, exposureEv, tone::Curve::Filmic);
   return image::over(toned, Rgb::Constant(0.75f));
 }
 

@@ -16,6 +16,7 @@
 #include "lambent/image/compare.h"
 #include "lambent/image/io.h"
 #include "lambent/image/strip.h"
+#include "lambent/tone/compare.h"
 
 namespace lambent::tool {
 
@@ -227,16 +228,16 @@ Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
   const bool developed =
       extensionOf(arguments.truth) == ".png" && extensionOf(arguments.judged) == ".png";
   const bool automatic = arguments.development.exposure == "auto";
-  image::CompareOptions options;
+  tone::CompareOptions options;
   options.displayReferred = developed;
   options.exposureEv = developed && automatic ? 0.0f : arguments.development.exposureFor(*a);
-  options.curve = developed ? radiometry::ToneCurve::Linear : arguments.development.curve();
-  const auto whole = console.stage("compare", [&] { return image::compare(*b, *a, options); });
+  options.curve = developed ? tone::Curve::Linear : arguments.development.curve();
+  const auto whole = console.stage("compare", [&] { return tone::compare(*b, *a, options); });
   if (!whole) return badInput(arguments.truth.string() + ": " + whole.error().message);
   const auto [truth, judged] = covered(*a, *b);
   const auto numbers = image::compare(std::span<const Rgb>(judged), std::span<const Rgb>(truth));
-  const auto develop = [&](const image::Image& picture, radiometry::ToneCurve curve) {
-    return radiometry::toneMap(picture, options.exposureEv, curve);
+  const auto develop = [&](const image::Image& picture, tone::Curve curve) {
+    return tone::toneMap(picture, options.exposureEv, curve);
   };
   const image::Image shownA = develop(*a, options.curve), shownB = develop(*b, options.curve);
   Outcome outcome{truth.size(), numbers ? *numbers : *whole, image::codeDifference(shownB, shownA),
@@ -247,7 +248,7 @@ Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
                                            outcome.numbers.nonFinitePixels));
 
   const image::Image difference =
-      develop(image::difference(*b, *a, arguments.gain), radiometry::ToneCurve::Linear);
+      develop(image::difference(*b, *a, arguments.gain), tone::Curve::Linear);
   if (!arguments.difference.empty())
     if (Status s = written(image::write(difference, arguments.difference)); !s) return s.error();
   if (!arguments.strip.empty()) {

@@ -7,7 +7,7 @@
 
 #include "lambent/asset/names.h"
 #include "lambent/asset/summary.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/luminance.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
 

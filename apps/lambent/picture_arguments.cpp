@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "lambent/radiometry/luminance.h"
 #include "lambent/scene/camera.h"
 
 namespace lambent::tool {
@@ -60,8 +61,8 @@ float DevelopmentArguments::exposureFor(const image::Image& picture) const {
   return number ? float(*number) : automaticExposure(picture);
 }
 
-radiometry::ToneCurve DevelopmentArguments::curve() const {
-  return tone == "linear" ? radiometry::ToneCurve::Linear : radiometry::ToneCurve::Filmic;
+tone::Curve DevelopmentArguments::curve() const {
+  return tone == "linear" ? tone::Curve::Linear : tone::Curve::Filmic;
 }
 
 namespace {

@@ -7,9 +7,9 @@
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/console.h"
 #include "lambent/image/image.h"
-#include "lambent/radiometry/tone.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
+#include "lambent/tone/tone_curve.h"
 
 namespace lambent::tool {
 
@@ -29,7 +29,7 @@ struct DevelopmentArguments {
   void addTo(CLI::App& app);
   /// The exposure in EV for this picture.
   float exposureFor(const image::Image& picture) const;
-  radiometry::ToneCurve curve() const;
+  tone::Curve curve() const;
 };
 
 /// The EV that takes the log-average luminance of what is covered and lit to a middle grey.

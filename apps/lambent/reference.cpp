@@ -194,7 +194,7 @@ Status runReference(Arguments arguments, Console& console) {
     if (linear)
       return image::write(picture->mean, arguments.output,
                           {.halfFloat = false, .layers = {{"variance", &picture->variance}}});
-    return image::write(radiometry::toneMap(picture->mean, ev, arguments.development.curve()),
+    return image::write(tone::toneMap(picture->mean, ev, arguments.development.curve()),
                         arguments.output);
   }));
   if (!status) return status;

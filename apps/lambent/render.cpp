@@ -130,7 +130,7 @@ Status runRender(Arguments arguments, Console& console) {
   const float ev = exposed ? arguments.development.exposureFor(*picture) : 0.0f;
   Status status = written(console.stage("write", [&] {
     if (!linear)
-      return image::write(radiometry::toneMap(*picture, ev, arguments.development.curve()),
+      return image::write(tone::toneMap(*picture, ev, arguments.development.curve()),
                           arguments.output);
     if (exposed)
       for (Rgb& pixel : picture->pixels) pixel *= std::exp2(ev);

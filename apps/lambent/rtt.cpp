@@ -21,7 +21,7 @@
 #include "lambent/meso/generators.h"
 #include "lambent/meso/load_patch.h"
 #include "lambent/meso/preview.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/tone/tone_curve.h"
 
 namespace lambent::tool {
 
@@ -190,8 +190,7 @@ Status runRtt(Arguments arguments, Console& console) {
       if (extensionOf(arguments.previewPath) == ".exr")
         return image::write(picture, arguments.previewPath);
       // The lights would show a white square facing them as 1: a little brighter for the eye.
-      return image::write(radiometry::toneMap(picture, 0.8f, radiometry::ToneCurve::Filmic),
-                          arguments.previewPath);
+      return image::write(tone::toneMap(picture, 0.8f, tone::Curve::Filmic), arguments.previewPath);
     }));
     if (!status) return status;
   }

@@ -38,7 +38,7 @@ Result<view::ViewState> StateArguments::read(const CLI::App& app, const LightArg
   if (app.count("--background")) state->background = view.background;
   if (!app.count("--exposure")) development.exposure = fmt::format("{}", state->exposure);
   if (!app.count("--tone"))
-    development.tone = state->tone == radiometry::ToneCurve::Linear ? "linear" : "filmic";
+    development.tone = state->tone == tone::Curve::Linear ? "linear" : "filmic";
   return state;
 }
 

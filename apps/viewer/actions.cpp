@@ -206,7 +206,7 @@ std::vector<Action> makeActions() {
        shown,
        "filmic or linear tone",
        [](S s, P) {
-         using Tone = radiometry::ToneCurve;
+         using Tone = tone::Curve;
          s.state.tone = s.state.tone == Tone::Filmic ? Tone::Linear : Tone::Filmic;
        }},
 

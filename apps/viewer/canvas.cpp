@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 
 namespace lambent::viewer {
 

@@ -185,10 +185,10 @@ void Panels::drawPicture(Session& session) {
   float exposure = float(state.exposure);
   if (ImGui::SliderFloat("exposure", &exposure, -8.0f, 8.0f, "%+.2f EV"))
     state.exposure = std::round(double(exposure) * 100.0) / 100.0;
-  const bool filmic = state.tone == radiometry::ToneCurve::Filmic;
+  const bool filmic = state.tone == tone::Curve::Filmic;
   if (ImGui::BeginCombo("tone", filmic ? "filmic" : "linear")) {
-    if (ImGui::Selectable("filmic", filmic)) state.tone = radiometry::ToneCurve::Filmic;
-    if (ImGui::Selectable("linear", !filmic)) state.tone = radiometry::ToneCurve::Linear;
+    if (ImGui::Selectable("filmic", filmic)) state.tone = tone::Curve::Filmic;
+    if (ImGui::Selectable("linear", !filmic)) state.tone = tone::Curve::Linear;
     ImGui::EndCombo();
   }
   ImGui::SliderInt("samples", &state.samples, 1, 256, "%d", ImGuiSliderFlags_Logarithmic);

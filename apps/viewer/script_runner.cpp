@@ -209,7 +209,7 @@ Status ScriptRunner::set(const std::string& name, const std::string& value, Scen
   if (name == "tone") {
     if (value != "filmic" && value != "linear")
       return badInput(fmt::format("'{}' is neither filmic nor linear", value));
-    using Tone = radiometry::ToneCurve;
+    using Tone = tone::Curve;
     state.tone = value == "filmic" ? Tone::Filmic : Tone::Linear;
     return Status::ok();
   }

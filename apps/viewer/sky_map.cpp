@@ -7,7 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/luminance.h"
+#include "lambent/radiometry/srgb.h"
+#include "lambent/tone/tone_curve.h"
 #include "lambent/view/placement.h"
 
 namespace lambent::viewer {
@@ -54,7 +56,7 @@ void SkyMap::paint(const Session& session) {
     }
   // Exposed for itself: the map shows where light is, not how much.
   const float ev = mean > 0.0 ? float(std::log2(0.3 / mean)) : 0.0f;
-  radiometry::toneMap(pixels, ev, radiometry::ToneCurve::Filmic);
+  tone::toneMap(pixels, ev, tone::Curve::Filmic);
   std::vector<unsigned char> bytes;
   for (const Rgb& pixel : pixels) {
     for (int c = 0; c < 3; ++c)

@@ -1,8 +1,8 @@
 #include "apps/viewer/stage.h"
 
-#include "lambent/radiometry/tone.h"
 #include "lambent/scene/camera.h"
 #include "lambent/shade/transfer_choice.h"
+#include "lambent/tone/tone_curve.h"
 #include "lambent/view/placement.h"
 
 namespace lambent::viewer {
@@ -193,7 +193,7 @@ Result<image::Image> Stage::picture(const view::ViewState& state, const PixelSiz
   auto linear = renderer_->picture();
   drawn_.reset();  // of this size nothing is to be shown
   if (!linear) return linear;
-  return radiometry::toneMap(std::move(*linear), float(state.exposure), state.tone);
+  return tone::toneMap(std::move(*linear), float(state.exposure), state.tone);
 }
 
 }  // namespace lambent::viewer

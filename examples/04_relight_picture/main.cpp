@@ -6,11 +6,11 @@
 #include <lambent/encode/encoded_field.h>
 #include <lambent/image/io.h>
 #include <lambent/light/source.h>
-#include <lambent/radiometry/tone.h>
 #include <lambent/scene/camera.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/sh/rotation.h>
 #include <lambent/shade/picture.h>
+#include <lambent/tone/tone_curve.h>
 #include <lambent/transport/bake.h>
 
 #include <Eigen/Geometry>
@@ -64,7 +64,7 @@ Status run(int argc, char** argv) {
                                         camera, options);
     if (!picture) return picture.error();
     const std::filesystem::path path = folder / ("frame" + std::to_string(frame) + ".png");
-    const auto developed = radiometry::toneMap(*picture, 0.0f, radiometry::ToneCurve::Filmic);
+    const auto developed = tone::toneMap(*picture, 0.0f, tone::Curve::Filmic);
     Status written = image::write(developed, path);
     if (!written) return written;
     std::printf("%s\n", path.string().c_str());

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 
 namespace lambent::image {
 

@@ -4,9 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
-#include "lambent/image/flip.h"
+#include "lambent/radiometry/srgb.h"
 
 namespace lambent::image {
 
@@ -48,33 +47,6 @@ Result<Comparison> compare(std::span<const Rgb> test, std::span<const Rgb> refer
   result.relativeRmse = squared == 0 ? 0 : power > 0 ? std::sqrt(squared / power) : kInfinity;
   result.psnrPeak = brightest > 0 ? brightest : 1.0;
   result.psnr = squared == 0 ? kInfinity : 20 * std::log10(result.psnrPeak / result.rmse);
-  return result;
-}
-
-Result<Comparison> compare(const Image& test, const Image& reference,
-                           const CompareOptions& options) {
-  const auto sizeOf = [](const Image& image) {
-    return std::to_string(image.width) + "×" + std::to_string(image.height);
-  };
-  if (test.width != reference.width || test.height != reference.height) {
-    return report::badInput("pictures of different sizes cannot be compared: " + sizeOf(test) +
-                            " and " + sizeOf(reference) + "; render them at one size");
-  }
-  if (test.pixels.empty()) return report::badInput("pictures without pixels cannot be compared");
-
-  Result<Comparison> measured =
-      compare(std::span<const Rgb>(test.pixels), std::span<const Rgb>(reference.pixels));
-  if (!measured) return measured;
-  Comparison& result = *measured;
-  if (options.displayReferred) {
-    result.psnr -= 20 * std::log10(result.psnrPeak);
-    result.psnrPeak = 1.0;
-    result.flip = meanOf(flip(test, reference, options.pixelsPerDegree));
-  } else {
-    result.flip = meanOf(flip(radiometry::toneMap(test, options.exposureEv, options.curve),
-                              radiometry::toneMap(reference, options.exposureEv, options.curve),
-                              options.pixelsPerDegree));
-  }
   return result;
 }
 

@@ -6,21 +6,9 @@
 #include <vector>
 
 #include "lambent/image/image.h"
-#include "lambent/radiometry/tone.h"
 #include "lambent/report/result.h"
 
 namespace lambent::image {
-
-struct CompareOptions {
-  /// Both pictures are display-referred already (linear light in [0, 1], as read from PNG): FLIP
-  /// and PSNR take them as they are, with peak 1. Otherwise they are scene-referred: FLIP sees them
-  /// exposed and tone-mapped as below, and PSNR's peak is the reference's largest channel.
-  bool displayReferred = false;
-  float exposureEv = 0.0f;
-  radiometry::ToneCurve curve = radiometry::ToneCurve::Filmic;
-  /// How the pictures are looked at, for FLIP: 67 is a 0.7 m wide 3840-pixel screen from 0.7 m.
-  float pixelsPerDegree = 67.0f;
-};
 
 /// Over all pixels and channels where both pictures are finite; t is the picture under test, r the
 /// reference. Alpha is not compared.
@@ -38,12 +26,9 @@ struct Comparison {
   std::uint64_t nonFinitePixels = 0;  ///< left out of all but FLIP
 };
 
-/// BadInput if the sizes differ or the pictures are empty.
-Result<Comparison> compare(const Image& test, const Image& reference,
-                           const CompareOptions& options = {});
-
-/// The same of any radiances, one beside the other (baked receivers, the covered pixels of two
-/// pictures), without FLIP. BadInput if none is finite in both. Asserts on equal lengths.
+/// Of any radiances, one beside the other (baked receivers, the covered pixels of two pictures),
+/// without FLIP: tone::compare compares pictures as they are seen. BadInput if none is finite in
+/// both. Asserts on equal lengths.
 Result<Comparison> compare(std::span<const Rgb> test, std::span<const Rgb> reference);
 
 /// |t − r| · scale per channel: the picture of an error. Asserts on equal sizes.

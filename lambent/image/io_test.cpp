@@ -9,7 +9,7 @@
 #include "lambent/image/decode.h"
 #include "lambent/image/repair.h"
 #include "lambent/image/test_pictures.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 
 namespace lambent::image {
 namespace {

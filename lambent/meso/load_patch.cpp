@@ -9,7 +9,7 @@
 #include "lambent/image/io.h"
 #include "lambent/meso/check_tiling.h"
 #include "lambent/meso/height_field.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/gltf_write.h"
 #include "lambent/scene_io/load.h"
 

@@ -13,7 +13,7 @@
 #include "lambent/meso/load_patch.h"
 #include "lambent/meso/periodic_scene.h"
 #include "lambent/meso/test_patches.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 
 namespace lambent::meso {
 namespace {

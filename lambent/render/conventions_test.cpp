@@ -10,8 +10,9 @@
 
 #include "lambent/light/environment.h"
 #include "lambent/math/directions.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/render/gl_environment.h"
+#include "lambent/tone/tone_curve.h"
 
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_objects.h"
@@ -253,9 +254,9 @@ TEST(ConventionTable, ToneCurvesAreIts) {
     const Json& pair = table().at("filmic")[p];
     const float x = pair.at(0).get<float>();
     EXPECT_NEAR(filmic[4 * p + 1], pair.at(1).get<double>(), 1e-6) << x;
-    EXPECT_NEAR(radiometry::filmic(Rgb::Constant(x))[1], pair.at(1).get<double>(), 1e-6) << x;
+    EXPECT_NEAR(tone::filmic(Rgb::Constant(x))[1], pair.at(1).get<double>(), 1e-6) << x;
     std::vector<Rgb> pixel = {Rgb::Constant(x)};
-    radiometry::toneMap(pixel, 0.0f, radiometry::ToneCurve::Linear);
+    tone::toneMap(pixel, 0.0f, tone::Curve::Linear);
     EXPECT_EQ(cut[4 * p + 2], pixel[0][2]) << x;
   }
   const std::vector<float> coded =

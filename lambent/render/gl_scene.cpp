@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/render/harmonics_source.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/shade/macro_transport.h"

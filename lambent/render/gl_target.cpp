@@ -142,14 +142,13 @@ Result<image::Image> GlTarget::meanOverBackground(int samples) const {
   return image;
 }
 
-void GlTarget::show(int samples, GLuint framebuffer, float exposureEv,
-                    radiometry::ToneCurve curve) const {
+void GlTarget::show(int samples, GLuint framebuffer, float exposureEv, tone::Curve curve) const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width_, height_);
   glDisable(GL_DEPTH_TEST);
   show_.set("share", 1.0f / float(std::max(samples, 1)));
   show_.set("exposure", std::exp2(exposureEv));
-  show_.set("filmicCurve", int(curve == radiometry::ToneCurve::Filmic));
+  show_.set("filmicCurve", int(curve == tone::Curve::Filmic));
   glBindTextureUnit(0, sum_.name());
   glBindTextureUnit(1, behind_.name());
   glBindVertexArray(noAttributes_.name());

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "lambent/image/image.h"
-#include "lambent/radiometry/tone.h"
 #include "lambent/render/gl_environment.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
+#include "lambent/tone/tone_curve.h"
 
 namespace lambent::render {
 
@@ -31,7 +31,7 @@ class GlTarget {
   /// The mean over its background as shade::finishPicture, without alpha.
   Result<image::Image> meanOverBackground(int samples) const;
   /// The same onto the whole of a framebuffer of this size, exposed and coded for a screen.
-  void show(int samples, GLuint framebuffer, float exposureEv, radiometry::ToneCurve curve) const;
+  void show(int samples, GLuint framebuffer, float exposureEv, tone::Curve curve) const;
 
  private:
   Texture color_, depth_, sum_, behind_;

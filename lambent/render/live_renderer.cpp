@@ -259,8 +259,7 @@ Mat4 LiveRenderer::clipFromWorld() const {
   return impl_->clipFromWorld;
 }
 
-Status LiveRenderer::show(unsigned framebuffer, float exposureEv,
-                          radiometry::ToneCurve curve) const {
+Status LiveRenderer::show(unsigned framebuffer, float exposureEv, tone::Curve curve) const {
   if (!impl_->target) return report::badUsage("a frame without a size: call resize() first");
   const GlStateGuard guard;
   impl_->fold();

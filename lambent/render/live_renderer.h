@@ -9,12 +9,12 @@
 #include "lambent/capture/blending.h"
 #include "lambent/image/image.h"
 #include "lambent/light/environment.h"
-#include "lambent/radiometry/tone.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
 #include "lambent/sh/coefficients.h"
 #include "lambent/shade/bi_scale_options.h"
 #include "lambent/shade/transfer_choice.h"
+#include "lambent/tone/tone_curve.h"
 
 namespace lambent::render {
 
@@ -85,8 +85,8 @@ class LiveRenderer {
   unsigned framebuffer() const;
   Mat4 clipFromWorld() const;
   /// The mean of what was added, exposed and sRGB-coded, onto the whole of a framebuffer (0: the
-  /// window) of that size. Equals radiometry::toneMap and sRGB coding to 1/255.
-  Status show(unsigned framebuffer, float exposureEv, radiometry::ToneCurve curve) const;
+  /// window) of that size. Equals tone::toneMap and sRGB coding to 1/255.
+  Status show(unsigned framebuffer, float exposureEv, tone::Curve curve) const;
   /// The same mean, read back: linear radiance, coverage in alpha unless there is a background.
   /// As shade::picture gives it.
   Result<image::Image> picture() const;

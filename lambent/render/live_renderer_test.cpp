@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "lambent/radiometry/srgb.h"
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/test_agreement.h"
@@ -387,7 +388,7 @@ TEST_F(Live, ShowsWhatPictureReadsBack) {
   view.camera = kCamera;
   const Window window;
   for (const bool background : {true, false})
-    for (const auto curve : {radiometry::ToneCurve::Filmic, radiometry::ToneCurve::Linear}) {
+    for (const auto curve : {tone::Curve::Filmic, tone::Curve::Linear}) {
       view.background = background;
       const Result<Image> picture = live(renderer, view, 3);
       ASSERT_TRUE(picture);
@@ -406,7 +407,7 @@ TEST_F(Live, ShowsWhatPictureReadsBack) {
       glDisable(GL_BLEND);
       glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
-      const Image expected = radiometry::toneMap(*picture, 0.7f, curve);
+      const Image expected = tone::toneMap(*picture, 0.7f, curve);
       const std::vector<std::uint8_t> shown = window.pixels();
       for (std::size_t i = 0; i < expected.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)

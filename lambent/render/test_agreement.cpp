@@ -7,9 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "lambent/image/io.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/render/gl_picture_in_blocks.h"
 #include "lambent/shade/test_assets.h"
+#include "lambent/tone/tone_curve.h"
 
 namespace lambent::render::test {
 
@@ -32,8 +33,8 @@ struct Difference {
 Difference difference(const Image& a, const Image& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
-  const Image ta = radiometry::toneMap(a, 0.0f, radiometry::ToneCurve::Filmic);
-  const Image tb = radiometry::toneMap(b, 0.0f, radiometry::ToneCurve::Filmic);
+  const Image ta = tone::toneMap(a, 0.0f, tone::Curve::Filmic);
+  const Image tb = tone::toneMap(b, 0.0f, tone::Curve::Filmic);
   Difference result;
   std::vector<double> interior;
   for (int y = 0; y < a.height; ++y)
@@ -60,7 +61,7 @@ void keep(const Image& image, const std::string& name) {
   const char* directory = std::getenv("LAMBENT_TEST_PICTURES");
   if (!directory) return;
   const auto path = std::filesystem::path(directory) / (name + ".png");
-  EXPECT_TRUE(image::write(radiometry::toneMap(image, 0.0f, radiometry::ToneCurve::Filmic), path));
+  EXPECT_TRUE(image::write(tone::toneMap(image, 0.0f, tone::Curve::Filmic), path));
 }
 
 }  // namespace

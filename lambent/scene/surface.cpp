@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/scene/scene.h"
 
 namespace lambent::scene {

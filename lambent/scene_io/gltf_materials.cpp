@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_material.h"
 #include "lambent/scene_io/image_codec.h"

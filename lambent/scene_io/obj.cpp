@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "lambent/file/atomic_file.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/polygon.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "lambent/file/atomic_file.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/ply_header.h"

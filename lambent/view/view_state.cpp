@@ -83,7 +83,7 @@ std::string toJson(const ViewState& state) {
   add("viewDependent", flag(state.viewDependent));
   add("lobe", numberOrNull(state.lobe));
   add("exposure", fmt::format("{}", state.exposure));
-  add("tone", state.tone == radiometry::ToneCurve::Linear ? "\"linear\"" : "\"filmic\"");
+  add("tone", state.tone == tone::Curve::Linear ? "\"linear\"" : "\"filmic\"");
   add("background", flag(state.background));
   add("samples", fmt::format("{}", state.samples));
   return json + "\n}\n";

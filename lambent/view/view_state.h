@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "lambent/math/types.h"
-#include "lambent/radiometry/tone.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
 #include "lambent/shade/transfer_choice.h"
+#include "lambent/tone/tone_curve.h"
 
 namespace lambent::view {
 
@@ -46,7 +46,7 @@ struct ViewState {
   bool viewDependent = true;   ///< of meso-structure
   std::optional<double> lobe;  ///< exponent of glossy lobes instead of the materials'
   double exposure = 0;         ///< EV
-  radiometry::ToneCurve tone = radiometry::ToneCurve::Filmic;
+  tone::Curve tone = tone::Curve::Filmic;
   bool background = true;
   int samples = 16;  ///< per pixel, once nothing moves; 1 … 4096
 };

@@ -217,7 +217,7 @@ Result<ViewState> parseViewState(std::string_view text, const std::string& name)
   reader.number(json, "exposure", "exposure", -60, 60, state.exposure);
   std::string tone = "filmic";
   reader.text(json, "tone", "tone", tone);
-  if (tone == "linear") state.tone = radiometry::ToneCurve::Linear;
+  if (tone == "linear") state.tone = tone::Curve::Linear;
   if (tone != "linear" && tone != "filmic")
     reader.complain("tone", fmt::format("is \"{}\"; it must be \"filmic\" or \"linear\"", tone));
   reader.flag(json, "background", state.background);

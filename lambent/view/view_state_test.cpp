@@ -22,7 +22,7 @@ ViewState everything() {
   state.macro = state.viewDependent = state.background = false;
   state.lobe = 12.5;
   state.exposure = -1.75;
-  state.tone = radiometry::ToneCurve::Linear;
+  state.tone = tone::Curve::Linear;
   state.samples = 64;
   return state;
 }
@@ -56,7 +56,7 @@ TEST(ViewState, IsComparedMemberByMember) {
   EXPECT_TRUE(differs([](ViewState& s) { s.viewDependent = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.lobe.reset(); }));
   EXPECT_TRUE(differs([](ViewState& s) { s.exposure = 0; }));
-  EXPECT_TRUE(differs([](ViewState& s) { s.tone = radiometry::ToneCurve::Filmic; }));
+  EXPECT_TRUE(differs([](ViewState& s) { s.tone = tone::Curve::Filmic; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.background = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.samples = 1; }));
 }

@@ -1,4 +1,4 @@
-// From scene-referred linear RGB to what a screen shows: lambent/radiometry/tone.h in TypeScript and
+// From scene-referred linear RGB to what a screen shows: lambent/tone/tone_curve.h in TypeScript and
 // GLSL, to 1/255.
 //
 // f(x) = (x + a x²) / (1 + a x + a x²), a = 2, of the family that reinhard2002photographic eq. 3

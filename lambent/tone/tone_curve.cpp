@@ -4,12 +4,12 @@
 // a x³ + …, so shadows and midtones keep their contrast, where x/(1+x) has lost 15 % at middle grey
 // already. Monotone for a ≥ 1: the numerator of f' is 1 + 2ax + (a² − a)x². It tends to 1, and 1 −
 // f(16) = .031 is 4 steps of an 8-bit sRGB picture.
-#include "lambent/radiometry/tone.h"
+#include "lambent/tone/tone_curve.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lambent::radiometry {
+namespace lambent::tone {
 namespace {
 
 constexpr float kLargest =
@@ -27,32 +27,24 @@ float filmicChannel(float value) {
 
 }  // namespace
 
-float luminance(const Rgb& linear) {
-  return 0.2126f * linear[0] + 0.7152f * linear[1] + 0.0722f * linear[2];
-}
-
 Rgb filmic(const Rgb& linear) {
   return Rgb(filmicChannel(linear[0]), filmicChannel(linear[1]), filmicChannel(linear[2]));
 }
 
-void toneMap(std::span<Rgb> pixels, float exposureEv, ToneCurve curve) {
+void toneMap(std::span<Rgb> pixels, float exposureEv, Curve curve) {
   const float factor = std::exp2(exposureEv);
   for (Rgb& pixel : pixels) {
     for (int c = 0; c < 3; ++c) {
       const float exposed = pixel[c] * factor;
       pixel[c] =
-          curve == ToneCurve::Filmic ? filmicChannel(exposed) : std::min(positive(exposed), 1.0f);
+          curve == Curve::Filmic ? filmicChannel(exposed) : std::min(positive(exposed), 1.0f);
     }
   }
 }
 
-float srgbEncode(float linear) {
-  // 0.0031308 is the rounded crossing of the standard; the step it leaves is 2e-8.
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+image::Image toneMap(image::Image scene, float exposureEv, Curve curve) {
+  toneMap(std::span<Rgb>(scene.pixels), exposureEv, curve);
+  return scene;
 }
 
-float srgbDecode(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
-}  // namespace lambent::radiometry
+}  // namespace lambent::tone
