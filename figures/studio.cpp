@@ -9,9 +9,9 @@
 #include "lambent/encode/encoded_field.h"
 #include "lambent/image/io.h"
 #include "lambent/image/strip.h"
-#include "lambent/light/source.h"
 #include "lambent/scene_io/load.h"
 #include "lambent/shade/picture.h"
+#include "lambent/sources/source.h"
 #include "lambent/tone/tone_curve.h"
 
 namespace lambent::figures {
@@ -26,7 +26,7 @@ scene::Scene Studio::load(const std::string& file) const {
 }
 
 light::Environment Studio::hdri(const std::string& name) const {
-  return orDie(light::parseSource((inputs / "hdri" / (name + ".exr")).string()));
+  return orDie(sources::parseSource((inputs / "hdri" / (name + ".exr")).string())).value;
 }
 
 void Studio::save(const image::Image& picture, const std::string& name) const {

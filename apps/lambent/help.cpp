@@ -23,15 +23,6 @@ const std::string_view kOverviewFooter = R"(In the sequence in which a person us
 Exit codes: 0 done, 1 the work failed, 2 wrong usage, 3 bad input.
 )";
 
-const std::string_view kSourceHelp = R"(SOURCE of light:
-  FILE.exr FILE.hdr FILE.png   an environment image, latitude-longitude
-  LIGHT.json                   coefficients written by 'lambent light'
-  uniform[:RADIANCE]           the same from everywhere
-  disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]
-                               degrees; azimuth from +x towards +z, elevation from the horizon
-  A+B+…                        the sum of several. RADIANCE is one number or R/G/B.
-)";
-
 HelpFormatter::HelpFormatter() {
   column_width(32);
 }

@@ -9,7 +9,6 @@ namespace lambent::tool {
 
 extern const std::string_view kOverview;        ///< what `lambent` alone begins with
 extern const std::string_view kOverviewFooter;  ///< and ends with
-extern const std::string_view kSourceHelp;      ///< how a SOURCE of light is written
 
 /// CLI11's help with wrapped descriptions and defaults at their end.
 class HelpFormatter : public CLI::Formatter {

@@ -15,7 +15,7 @@
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/io.h"
 #include "lambent/light/environment.h"
-#include "lambent/light/source.h"
+#include "lambent/light/light_file.h"
 #include "lambent/scene_io/load.h"
 
 namespace lambent::tool {

@@ -1,6 +1,4 @@
 // lambent light SOURCE -o LIGHT.json
-#include "lambent/light/source.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +10,8 @@
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/verbs.h"
+#include "lambent/light/light_file.h"
+#include "lambent/sources/source.h"
 
 namespace lambent::tool {
 
@@ -55,7 +55,7 @@ Verb addLight(CLI::App& root, ConsoleOptions& common) {
   CLI::App* app = root.add_subcommand(
       "light", "Project a light to spherical harmonics, and write them as JSON");
   app->group("Verbs");
-  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kExamples));
   arguments->light.addTo(*app, true);
   app->add_option("-o,--output", arguments->output, "The coefficients to write, a .json")
       ->option_text("LIGHT.json")

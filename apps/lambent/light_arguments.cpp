@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
-#include "lambent/light/source.h"
 #include "lambent/light/windowing.h"
+#include "lambent/sources/source.h"
 
 namespace lambent::tool {
 
@@ -38,10 +38,11 @@ void LightArguments::addWindowTo(CLI::App& app) {
 }
 
 Result<light::Environment> LightArguments::environment(Console& console) const {
-  auto parsed = console.stage("light", [&] { return light::parseSource(source); });
-  if (!parsed || rotateY == 0.0) return parsed;
+  auto parsed = console.stage("light", [&] { return sources::parseSource(source); });
+  if (!parsed) return parsed.error();
+  if (rotateY == 0.0) return std::move(parsed->value);
   const float angle = float(rotateY * kPi / 180.0);
-  return parsed->rotated(Eigen::AngleAxisf(angle, Vec3::UnitY()).toRotationMatrix());
+  return parsed->value.rotated(Eigen::AngleAxisf(angle, Vec3::UnitY()).toRotationMatrix());
 }
 
 Result<sh::RgbCoefficients> LightArguments::coefficients(const light::Environment& environment,

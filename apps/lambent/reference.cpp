@@ -17,6 +17,7 @@
 #include "apps/lambent/verbs.h"
 #include "lambent/image/io.h"
 #include "lambent/reference/path_tracer.h"
+#include "lambent/sources/source.h"
 #include "lambent/transport/receivers.h"
 
 namespace lambent::tool {
@@ -223,7 +224,7 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
       root.add_subcommand("reference", "Path-trace the scene: the truth to compare with");
   arguments->app = app;
   app->group("Verbs");
-  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kExamples));
   arguments->scene.addTo(*app);
   arguments->state.addTo(*app, arguments->light.addTo(*app, false));
   app->add_option(

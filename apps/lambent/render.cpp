@@ -19,6 +19,7 @@
 #include "lambent/image/io.h"
 #include "lambent/render/gl_picture.h"
 #include "lambent/shade/picture.h"
+#include "lambent/sources/source.h"
 #include "lambent/view/placement.h"
 
 namespace lambent::tool {
@@ -155,7 +156,7 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
   CLI::App* app = root.add_subcommand("render", "Relight an asset and draw a picture");
   arguments->app = app;
   app->group("Verbs");
-  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kExamples));
   app->add_option("ASSET", arguments->asset,
                   "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
       ->required();

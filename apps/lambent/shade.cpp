@@ -17,6 +17,7 @@
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
 #include "lambent/shade/check_bi_scale.h"
+#include "lambent/sources/source.h"
 
 namespace lambent::tool {
 
@@ -94,7 +95,7 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
   CLI::App* app = root.add_subcommand(
       "shade", "Relight an asset and write the exit radiance of every receiver as numbers");
   app->group("Verbs");
-  app->footer(std::string(kSourceHelp) + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kExamples));
   app->add_option("ASSET", arguments->asset,
                   "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
       ->required();

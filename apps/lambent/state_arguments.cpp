@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "lambent/light/source.h"
+#include "lambent/sources/source.h"
 #include "lambent/view/placement.h"
 #include "lambent/view/state_light.h"
 
@@ -52,12 +52,13 @@ Result<Shot> shotOf(const view::ViewState& state, const ViewArguments& view,
     if (!named) return named.error();
     camera = *named;
   }
-  const auto environment =
-      console.stage("light", [&] { return light::parseSource(state.environment); });
-  if (!environment) return environment.error();
+  const auto parsed =
+      console.stage("light", [&] { return sources::parseSource(state.environment); });
+  if (!parsed) return parsed.error();
+  const light::Environment& environment = parsed->value;
   return Shot{
-      view::assetEnvironment(state, *environment),
-      console.stage("project", [&] { return view::StateLight(*environment, bands).asset(state); }),
+      view::assetEnvironment(state, environment),
+      console.stage("project", [&] { return view::StateLight(environment, bands).asset(state); }),
       view::assetCamera(state, camera)};
 }
 

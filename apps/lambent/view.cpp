@@ -15,6 +15,7 @@
 #include "apps/viewer/captured_light.h"
 #include "apps/viewer/viewer.h"
 #include "lambent/capture/moving_scene.h"
+#include "lambent/sources/source.h"
 
 namespace lambent::tool {
 
@@ -111,7 +112,7 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
   CLI::App* app =
       root.add_subcommand("view", "Relight an asset in a window, while everything moves");
   app->group("Verbs");
-  app->footer(std::string(kSourceHelp) + std::string(kExamples) + std::string(viewer::kScriptHelp));
+  app->footer(sources::sourceHelp() + std::string(kExamples) + std::string(viewer::kScriptHelp));
   app->add_option("ASSET", arguments->asset,
                   "A .glb that 'lambent bake' or 'lambent synthesize' wrote; others can be dropped "
                   "on the window");

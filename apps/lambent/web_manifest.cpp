@@ -4,14 +4,12 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "apps/lambent/arguments.h"
 #include "lambent/asset/asset.h"
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/io.h"
 #include "lambent/image/maps.h"
-#include "lambent/light/source.h"
+#include "lambent/sources/source.h"
 
 namespace lambent::tool {
 
@@ -39,14 +37,14 @@ Status addPage(const fs::path& page, ServedFiles& files) {
 
 /// A map of another kind than latitude and longitude, as an .exr in that.
 Result<std::string> resampled(const std::string& term, int height) {
-  const auto environment = light::parseSource(term);
-  if (!environment) return environment.error();
+  const auto parsed = sources::parseSource(term);
+  if (!parsed) return parsed.error();
   image::Image map(2 * height, height);
   const image::MapShape shape{image::MapKind::LatLong, map.width, map.height};
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x)
       map.at(x, y) =
-          environment->radiance(image::directionOf(shape, {x + 0.5, y + 0.5})->cast<float>());
+          parsed->value.radiance(image::directionOf(shape, {x + 0.5, y + 0.5})->cast<float>());
   const fs::path path = fs::temp_directory_path() / fmt::format("lambent-{}.exr", getpid());
   if (const Status status = image::write(map, path); !status) return status.error();
   auto bytes = readText(path);
@@ -59,17 +57,14 @@ Result<std::string> resampled(const std::string& term, int height) {
 Result<Json> addEnvironment(const std::string& source, std::size_t number, ServedFiles& files) {
   constexpr int kResampledHeight = 1024;
   Json names = Json::object();
-  const auto terms = light::sourceTerms(source);
+  const auto terms = sources::sourceTerms(source);
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const std::string term(terms[k]);
-    const auto startsWithAny = [&](std::initializer_list<std::string_view> prefixes) {
-      return std::any_of(prefixes.begin(), prefixes.end(),
-                         [&](std::string_view prefix) { return term.starts_with(prefix); });
-    };
-    if (startsWithAny({"uniform", "disc:", "directional:"})) continue;
+    const sources::SourceKind* kind = sources::kindOf(term);
+    if (kind && kind->takes == sources::SourceKind::Takes::Numbers) continue;
     const std::string stem = fmt::format("files/environment-{}-{}", number, k);
     std::string name = stem + extensionOf(term);
-    if (startsWithAny({"cube:", "angular:", "ball:"})) {
+    if (kind) {
       name = stem + ".exr";
       const auto bytes = resampled(term, kResampledHeight);
       if (!bytes) return bytes.error();
@@ -117,11 +112,12 @@ Result<ServedFiles> filesToServe(const fs::path& page, const fs::path& asset,
   }
   Json given = Json::array();
   for (std::size_t k = 0; k < environments.size(); ++k) {
-    Findings findings;
-    const auto light =
-        console.stage("light", [&] { return light::parseSource(environments[k], &findings); });
-    console.report(findings);
+    const auto light = console.stage("light", [&] {
+      return sources::parseSource(environments[k],
+                                  {.notFinite = sources::SourceOptions::NotFinite::Repair});
+    });
     if (!light) return light.error();
+    console.report(light->findings);
     auto entry = addEnvironment(environments[k], k, files);
     if (!entry) return entry.error();
     given.push_back(std::move(*entry));

@@ -16,7 +16,7 @@ Result<std::filesystem::path> findViewerPage();
 
 /// Serves the page on 127.0.0.1 until Ctrl-C, which is success. Prints the URL on stdout.
 ///  - `asset`: what the page opens, or empty for the page's own.
-///  - `environments`: SOURCEs as light::parseSource takes them, what the page can switch between;
+///  - `environments`: SOURCEs as sources::parseSource takes them, what the page can switch between;
 ///    the first is shown. Their files are served under fixed names, so that nothing else of the
 ///    disk can be asked for. All are read once before, so that what is wrong with one is said here.
 ///  - `port`: 0 takes a free one. One that is taken is Failed.

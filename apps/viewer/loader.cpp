@@ -4,7 +4,7 @@
 
 #include <exception>
 
-#include "lambent/light/source.h"
+#include "lambent/sources/source.h"
 
 namespace lambent::viewer {
 
@@ -17,11 +17,10 @@ std::string lowerExtension(const std::filesystem::path& path) {
 }
 
 Result<Loaded> readEnvironment(const std::string& source) {
-  LoadedEnvironment loaded{source, {}, {}};
-  const auto environment = light::parseSource(source, &loaded.findings);
-  if (!environment) return environment.error();
-  loaded.environment = *environment;
-  return Loaded(std::move(loaded));
+  auto parsed =
+      sources::parseSource(source, {.notFinite = sources::SourceOptions::NotFinite::Repair});
+  if (!parsed) return parsed.error();
+  return Loaded(LoadedEnvironment{source, std::move(parsed->value), std::move(parsed->findings)});
 }
 
 }  // namespace

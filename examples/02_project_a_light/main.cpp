@@ -3,9 +3,9 @@
 // usage: 02_project_a_light [SOURCE]     as on the command line: sky.exr, disc:30,45,20+uniform:0.2
 #include <lambent/light/environment.h>
 #include <lambent/light/irradiance.h>
-#include <lambent/light/source.h>
 #include <lambent/sh/basis.h>
 #include <lambent/sh/window.h>
+#include <lambent/sources/source.h>
 
 #include <cstdio>
 
@@ -27,7 +27,7 @@ float darkest(const sh::RgbCoefficients& light) {
 
 int main(int argc, char** argv) {
   // Whatever enters from outside comes as a Result: test it, then use it.
-  const auto environment = light::parseSource(argc > 1 ? argv[1] : "disc:0,60,20,10");
+  const auto environment = sources::parseSource(argc > 1 ? argv[1] : "disc:0,60,20,10");
   if (!environment) {
     std::fprintf(stderr, "%s\n", environment.error().message.c_str());
     return 1;
@@ -35,13 +35,13 @@ int main(int argc, char** argv) {
 
   std::printf("bands  mean radiance  darkest direction\n");
   for (const int bands : {3, 5, 7, 9}) {
-    const sh::RgbCoefficients light = environment->project(bands);
+    const sh::RgbCoefficients light = environment->value.project(bands);
     std::printf("%5d  %13.5f  %+.4f\n", bands, light.channel(1)[0] * 0.28209479f, darkest(light));
   }
 
   // A small light rings: with few bands, directions beside it come out darker than black. A window
   // fades the highest bands out; `minimalRinging` finds the least that keeps radiance positive.
-  sh::RgbCoefficients light = environment->project(5);
+  sh::RgbCoefficients light = environment->value.project(5);
   const float before = darkest(light);
   sh::applyWindow(sh::minimalRinging(light), light);
   const float after = darkest(light);
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
 
   // Diffuse surfaces without shadows need nine coefficients only (Ramamoorthi and Hanrahan 2001):
   // irradiance is a quadratic polynomial in the normal, one 4×4 matrix for each channel.
-  const light::IrradianceMap map = light::irradianceMap(environment->project(3));
+  const light::IrradianceMap map = light::irradianceMap(environment->value.project(3));
   std::printf("irradiance on the ground: %.4f, on a ceiling: %.4f\n",
               map.evaluate(Vec3(0, 1, 0))[1], map.evaluate(Vec3(0, -1, 0))[1]);
   return after >= before && after > -1e-3f ? 0 : 1;

@@ -5,11 +5,11 @@
 #include <lambent/asset/asset.h>
 #include <lambent/encode/encoded_field.h>
 #include <lambent/image/io.h>
-#include <lambent/light/source.h>
 #include <lambent/scene/camera.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/sh/rotation.h>
 #include <lambent/shade/picture.h>
+#include <lambent/sources/source.h>
 #include <lambent/tone/tone_curve.h>
 #include <lambent/transport/bake.h>
 
@@ -47,21 +47,22 @@ Status run(int argc, char** argv) {
     Status written = asset::write(*asset, folder / "scene.glb");
     if (!written) return written;
   }
-  const auto environment = light::parseSource(argc > 2 ? argv[2] : "disc:20,35,25,8+uniform:0.25");
-  if (!environment) return environment.error();
+  const auto sky = sources::parseSource(argc > 2 ? argv[2] : "disc:20,35,25,8+uniform:0.25");
+  if (!sky) return sky.error();
+  const light::Environment& environment = sky->value;
 
   shade::PictureOptions options;
   options.width = 320;
   options.height = 240;
   options.samples = 4;
   const auto camera = scene::frameAutomatically(asset->scene, 320.0f / 240.0f);
-  const sh::RgbCoefficients light = environment->project(asset->transfer.bands);
+  const sh::RgbCoefficients light = environment.project(asset->transfer.bands);
   for (int frame = 0; frame < 4; ++frame) {
     // Turning the light is a product with a small matrix. (Mirrors and backgrounds look the
     // environment up directly: it turns along.)
     const Mat3 turn = Eigen::AngleAxisf(float(frame * kPi / 2), Vec3::UnitY()).toRotationMatrix();
-    const auto picture = shade::picture(*asset, sh::rotate(turn, light), environment->rotated(turn),
-                                        camera, options);
+    const auto picture =
+        shade::picture(*asset, sh::rotate(turn, light), environment.rotated(turn), camera, options);
     if (!picture) return picture.error();
     const std::filesystem::path path = folder / ("frame" + std::to_string(frame) + ".png");
     const auto developed = tone::toneMap(*picture, 0.0f, tone::Curve::Filmic);

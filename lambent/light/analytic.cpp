@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include "lambent/light/component.h"
+#include "lambent/light/built_in.h"
 #include "lambent/math/directions.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"

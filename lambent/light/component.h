@@ -1,15 +1,13 @@
 // What an Environment is a sum of: one light that can be looked up, projected, sampled and turned.
-// Internal to this room.
+// Other rooms make lights of their own as classes that derive from Component (Environment::of).
 #pragma once
 
-#include <limits>
+#include <cmath>
 #include <memory>
 #include <span>
 
-#include "lambent/image/image.h"
 #include "lambent/light/environment.h"
 #include "lambent/math/types.h"
-#include "lambent/sh/coefficients.h"
 
 namespace lambent::light {
 
@@ -24,34 +22,36 @@ inline double importance(const Rgb& radiance) {
 class Component;
 using ComponentPtr = std::shared_ptr<const Component>;
 
+/// Immutable, and looked up from many threads at once. Directions are unit vectors in world space
+/// that point away from the scene; radiance in W m⁻² sr⁻¹ per channel, and finite.
 class Component {
  public:
   struct Drawn {
     Vec3 direction;
-    Rgb radiance;  ///< there; for a directional light its irradiance
-    double pdf;    ///< sr⁻¹; infinite for a directional light
+    Rgb radiance;  ///< there, as radiance() has it; for a directional light its irradiance
+    double pdf;    ///< sr⁻¹, as pdf() has it; infinite for a directional light
   };
 
   virtual ~Component() = default;
-  /// ∫ importance(radiance) ds: how often the component is drawn among others.
+  /// ∫ importance(radiance) ds, ≥ 0: how often the component is drawn among others. An estimate
+  /// will do (it costs variance, not bias), but it must not be 0 where there is radiance.
   virtual double power() const = 0;
+  /// From one direction; 0 everywhere for a directional light, which only draws and projects.
   virtual Rgb radiance(const Vec3& direction) const = 0;
-  /// The density that draw() draws with. It integrates to 1, or is 0 for a directional light.
+  /// The density that draw() draws with, of a component that is black too. It integrates to 1 over
+  /// the sphere and is above 0 wherever there is radiance; 0 everywhere for a directional light.
   virtual double pdf(const Vec3& direction) const = 0;
+  /// A direction for two uniform numbers in [0, 1): where radiance() and pdf() are asked for it
+  /// again they say what stands in Drawn, but for rounding.
   virtual Drawn draw(double u1, double u2) const = 0;
-  /// Adds the projection to `out`: 3·bands² doubles, channel after channel.
+  /// Adds ∫ radiance y_i ds of what radiance() returns, in 1 … 10 bands, to `out`: 3·bands²
+  /// doubles, channel after channel, each in the sequence of sh::index.
   virtual void addProjection(int bands, std::span<double> out) const = 0;
+  /// The light whose radiance in direction dstFromSrc·s is this one's in s (a proper rotation).
   virtual ComponentPtr rotated(const Mat3& dstFromSrc) const = 0;
-  /// Adds itself to what Environment::Parts has a place for; false: it has none.
+  /// Adds all of what radiance() returns to the part that has a place for it, and returns true; or
+  /// returns false, and becomes one of Environment::Parts::others.
   virtual bool addTo(Environment::Parts&) const { return false; }
 };
-
-ComponentPtr makeUniform(const Rgb& radiance);
-ComponentPtr makeDisc(const Vec3d& axis, double angularDiameter, const Rgb& radiance);
-ComponentPtr makeDirectional(const Vec3d& direction, const Rgb& irradiance);
-ComponentPtr makeClampedCosine(const Vec3d& axis, const Rgb& radiance);
-ComponentPtr makeHarmonics(sh::RgbCoefficients coefficients);
-/// Pixels that are not finite count as black.
-ComponentPtr makeLatLong(image::Image image);
 
 }  // namespace lambent::light

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lambent/light/component.h"
+#include "lambent/light/built_in.h"
 
 namespace lambent::light {
 
@@ -30,30 +30,27 @@ struct Environment::Impl {
 Environment::Environment() : Environment(uniform(Rgb::Zero())) {}
 Environment::Environment(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
-static std::vector<ComponentPtr> one(ComponentPtr component) {
-  return {std::move(component)};
+Environment Environment::of(ComponentPtr component) {
+  assert(component);
+  return Environment(std::make_shared<Impl>(std::vector<ComponentPtr>{std::move(component)}));
 }
-
 Environment Environment::uniform(const Rgb& radiance) {
-  return Environment(std::make_shared<Impl>(one(makeUniform(radiance))));
+  return of(makeUniform(radiance));
 }
 Environment Environment::disc(const Vec3& direction, double angularDiameter, const Rgb& radiance) {
-  return Environment(
-      std::make_shared<Impl>(one(makeDisc(direction.cast<double>(), angularDiameter, radiance))));
+  return of(makeDisc(direction.cast<double>(), angularDiameter, radiance));
 }
 Environment Environment::directional(const Vec3& direction, const Rgb& irradiance) {
-  return Environment(
-      std::make_shared<Impl>(one(makeDirectional(direction.cast<double>(), irradiance))));
+  return of(makeDirectional(direction.cast<double>(), irradiance));
 }
 Environment Environment::clampedCosine(const Vec3& axis, const Rgb& radiance) {
-  return Environment(std::make_shared<Impl>(one(makeClampedCosine(axis.cast<double>(), radiance))));
+  return of(makeClampedCosine(axis.cast<double>(), radiance));
 }
 Environment Environment::harmonics(sh::RgbCoefficients coefficients) {
-  return Environment(std::make_shared<Impl>(one(makeHarmonics(std::move(coefficients)))));
+  return of(makeHarmonics(std::move(coefficients)));
 }
 Environment Environment::latLong(image::Image image) {
-  if (image.pixels.empty()) return Environment();
-  return Environment(std::make_shared<Impl>(one(makeLatLong(std::move(image)))));
+  return image.pixels.empty() ? Environment() : of(makeLatLong(std::move(image)));
 }
 
 Environment Environment::rotated(const Mat3& dstFromSrc) const {
@@ -119,7 +116,7 @@ float Environment::pdf(const Vec3& direction) const {
 Environment::Parts Environment::parts() const {
   Parts parts;
   for (const ComponentPtr& part : impl_->components)
-    if (!part->addTo(parts)) parts.others.push_back(Environment(std::make_shared<Impl>(one(part))));
+    if (!part->addTo(parts)) parts.others.push_back(of(part));
   return parts;
 }
 

@@ -11,6 +11,8 @@
 
 namespace lambent::light {
 
+class Component;
+
 /// Radiance from every direction (W m⁻² sr⁻¹ per channel), directions in world space pointing away
 /// from the scene. A value: cheap to copy, immutable, thread-safe.
 class Environment {
@@ -30,8 +32,10 @@ class Environment {
   static Environment harmonics(sh::RgbCoefficients coefficients);
   /// A map in latitude and longitude: the pixel at (u, v), v from the top, is the direction with
   /// u = atan2(z, x)/2π + ½ and elevation asin(y) = π(½ − v); bilinear between the pixels' centres.
-  /// Pixels that are not finite count as black (parseSource rejects them); negative ones stay.
+  /// Pixels that are not finite count as black; negative ones stay.
   static Environment latLong(image::Image image);
+  /// Any light that meets what component.h asks for: how other rooms make one.
+  static Environment of(std::shared_ptr<const Component> component);
 
   /// What stood in direction s stands in dstFromSrc·s (a proper rotation).
   Environment rotated(const Mat3& dstFromSrc) const;

@@ -4,12 +4,14 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "lambent/light/grid_distribution.h"
+#include "lambent/light/test_component.h"
 #include "lambent/math/directions.h"
 #include "lambent/math/quadrature.h"
 #include "lambent/math/random.h"
@@ -65,6 +67,8 @@ std::vector<Case> allKinds() {
   cases.push_back({"image", Environment::latLong(randomImage(32, 16, 5))});
   cases.push_back({"turned image", Environment::latLong(randomImage(10, 5, 6)).rotated(turn)});
   cases.push_back({"one pixel", Environment::latLong(randomImage(1, 1, 12))});
+  cases.push_back({"another room's",
+                   Environment::of(std::make_shared<test::Gradient>(b, -0.9, Rgb(0.5f, 1, 2)))});
   cases.push_back({"sum", Environment::latLong(randomImage(16, 8, 7)) +
                               Environment::disc(a, 0.5, Rgb(10, 9, 8)) +
                               Environment::harmonics(randomHarmonics(3, 4)) +

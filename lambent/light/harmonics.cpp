@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lambent/light/component.h"
+#include "lambent/light/built_in.h"
 #include "lambent/light/grid_distribution.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/rotation.h"

@@ -21,7 +21,7 @@
 
 #include <Eigen/Geometry>
 
-#include "lambent/light/component.h"
+#include "lambent/light/built_in.h"
 #include "lambent/light/grid_distribution.h"
 #include "lambent/math/quadrature.h"
 #include "lambent/sh/basis.h"

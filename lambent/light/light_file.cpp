@@ -1,5 +1,7 @@
 // LIGHT.json ⇄ harmonics. Numbers are written with nine digits, which is what a float needs to come
 // back bit for bit.
+#include "lambent/light/light_file.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -10,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include "lambent/file/atomic_file.h"
-#include "lambent/light/source.h"
 
 namespace lambent::light {
 using report::badInput;

@@ -36,7 +36,7 @@ struct ViewState {
   /// Where the object is: unit quaternion x, y, z, w, and metres.
   std::array<double, 4> objectRotation{0, 0, 0, 1};
   Vec3 objectTranslation = Vec3::Zero();
-  /// A SOURCE, as light::parseSource takes it; files are sought from the current folder.
+  /// A SOURCE, as sources::parseSource takes it; files are sought from the current folder.
   std::string environment = "uniform:1";
   std::array<double, 4> environmentRotation{0, 0, 0, 1};
   std::vector<Disc> discs;

@@ -1,4 +1,4 @@
-// SOURCE of light as text, as the tool takes it (lambent/light/source.h): files, uniform, discs and
+// SOURCE of light as text, as the tool takes it (lambent/sources/source.h): files, uniform, discs and
 // directional lights, and sums of them.
 import type { Triple } from "./view_state";
 

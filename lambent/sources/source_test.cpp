@@ -1,8 +1,7 @@
-// The grammar of SOURCE and the file LIGHT.json: what is understood, and how the rest is refused.
-#include "lambent/light/source.h"
+// The grammar of SOURCE: what is understood, and how the rest is refused.
+#include "lambent/sources/source.h"
 
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <limits>
 
@@ -10,18 +9,21 @@
 
 #include "lambent/image/io.h"
 #include "lambent/image/maps.h"
+#include "lambent/light/light_file.h"
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 
-namespace lambent::light {
+namespace lambent::sources {
 namespace {
+
+using light::Environment;
 
 class Files : public ::testing::Test {
  protected:
   void SetUp() override {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = std::filesystem::path(::testing::TempDir()) /
-              (std::string("lambent-light-") + test->test_suite_name() + test->name());
+              (std::string("lambent-sources-") + test->test_suite_name() + test->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
@@ -41,18 +43,18 @@ class Files : public ::testing::Test {
   std::filesystem::path folder_;
 };
 using Source = Files;
-using LightFile = Files;
 
 void expectLight(std::string_view text, const Environment& expected) {
-  const Result<Environment> light = parseSource(text);
+  const auto light = parseSource(text);
   ASSERT_TRUE(light) << text << ": " << light.error().message;
-  const auto a = light->project(6), b = expected.project(6);
+  EXPECT_TRUE(light->findings.empty()) << text;
+  const auto a = light->value.project(6), b = expected.project(6);
   for (std::size_t i = 0; i < a.values.size(); ++i)
     EXPECT_NEAR(a.values[i], b.values[i], 1e-5f * (1 + std::abs(b.values[i]))) << text;
 }
 
 void expectError(std::string_view text, ErrorKind kind, std::initializer_list<const char*> words) {
-  const Result<Environment> light = parseSource(text);
+  const auto light = parseSource(text);
   ASSERT_FALSE(light) << text;
   EXPECT_EQ(int(light.error().kind), int(kind)) << text << ": " << light.error().message;
   for (const char* word : words)
@@ -138,14 +140,14 @@ TEST_F(Source, OtherMapsShowTheSameLight) {
         if (const auto s = image::directionOf({kind, width, height}, {x + 0.5, y + 0.5}))
           map.at(x, y) = expected.radiance(s->cast<float>());
     writeImage("map.exr", map);
-    const Result<Environment> light = parseSource(text + path("map.exr"));
+    const auto light = parseSource(text + path("map.exr"));
     ASSERT_TRUE(light) << light.error().message;
-    const auto g = light->project(3);
+    const auto g = light->value.project(3);
     for (std::size_t i = 0; i < g.values.size(); ++i)
       EXPECT_NEAR(g.values[i], f.values[i], 0.01) << text << width << "x" << height;
     for (int n = 0; n < 100; ++n) {
       const Vec3 s = math::uniformSphere(random.uniform2());
-      EXPECT_LT((light->radiance(s) - expected.radiance(s)).abs().maxCoeff(), 0.02) << text;
+      EXPECT_LT((light->value.radiance(s) - expected.radiance(s)).abs().maxCoeff(), 0.02) << text;
     }
   };
   compare("", image::MapKind::LatLong, 128, 64);
@@ -176,9 +178,9 @@ TEST_F(Source, PixelsThatAreNoRadiance) {
   const std::string file = writeImage("map.exr", image);
   expectError(file, ErrorKind::BadInput, {"map.exr", "column 5, row 2", "(1, inf, 3)"});
 
-  Findings findings;
-  const Result<Environment> light = parseSource(file, &findings);
+  const auto light = parseSource(file, {.notFinite = SourceOptions::NotFinite::Repair});
   ASSERT_TRUE(light) << light.error().message;
+  const Findings& findings = light->findings;
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].code, "light-pixels-repaired");
   EXPECT_EQ(findings[0].count, 2u);
@@ -186,84 +188,56 @@ TEST_F(Source, PixelsThatAreNoRadiance) {
   EXPECT_EQ(findings[1].code, "light-pixels-negative");
   image.at(5, 2) = Rgb(1, 2, 3);
   image.at(6, 3) = Rgb(0, 0, 3);
-  const auto a = light->project(4), b = Environment::latLong(image).project(4);
+  const auto a = light->value.project(4), b = Environment::latLong(image).project(4);
   for (std::size_t i = 0; i < a.values.size(); ++i) EXPECT_EQ(a.values[i], b.values[i]);
 }
 
-TEST_F(LightFile, ComesBackBitForBit) {
+TEST_F(Source, FindingsOfEveryTermAreTold) {
+  image::Image image(8, 4);
+  image.at(1, 1) = Rgb(-1, 2, 3);
+  const std::string file = writeImage("map.exr", image);
+  const auto light = parseSource(file + "+uniform:1+" + file);
+  ASSERT_TRUE(light) << light.error().message;
+  ASSERT_EQ(light->findings.size(), 2u);
+  for (const Finding& finding : light->findings) EXPECT_EQ(finding.code, "light-pixels-negative");
+}
+
+TEST_F(Source, LightFiles) {
+  sh::RgbCoefficients f(4);
   math::Random random(4, 4);
-  for (const int bands : {1, 2, 5, 10}) {
-    sh::RgbCoefficients light(bands);
-    for (float& value : light.values) {
-      const std::uint32_t bits = std::uint32_t(random.bits() >> 32);
-      std::memcpy(&value, &bits, sizeof value);
-      if (!std::isfinite(value)) value = std::numeric_limits<float>::denorm_min();
-    }
-    light.values[0] = 0.1f;
-    light.values[1] = -0.0f;
-    light.values[2] = std::numeric_limits<float>::max();
-    const Status written = writeLight(light, path("light.json"));
-    ASSERT_TRUE(written) << written.error().message;
-    const auto read = readLight(path("light.json"));
-    ASSERT_TRUE(read) << read.error().message;
-    ASSERT_EQ(read->bands, bands);
-    EXPECT_EQ(std::memcmp(read->values.data(), light.values.data(), 4 * light.values.size()), 0);
-    const Result<Environment> source = parseSource(path("light.json"));
-    ASSERT_TRUE(source);
-    EXPECT_EQ(source->project(bands).values, light.values);
+  for (float& value : f.values) value = 100 * random.uniform() - 50;
+  ASSERT_TRUE(light::writeLight(f, path("light.json")));
+  const auto light = parseSource(path("light.json"));
+  ASSERT_TRUE(light) << light.error().message;
+  EXPECT_EQ(light->value.project(4).values, f.values);
+  const std::string file = write("asset.json", "{\"lambent\": \"asset\"}");
+  expectError(file, ErrorKind::BadInput, {"asset.json", "\"lambent\": \"light\""});
+}
+
+TEST_F(Source, TheTableKnowsEveryWord) {
+  for (const SourceKind& kind : sourceKinds()) {
+    const std::string word(kind.word);
+    EXPECT_EQ(kindOf(word + ":1"), &kind);
+    EXPECT_TRUE(kind.syntax.starts_with(word)) << word;
+    expectError("sun:1", ErrorKind::BadUsage, {word.c_str()});
+    // A '+' in an exponent does not divide, one in a file's name only if there is no such file.
+    const std::string sum = word + ":1e+3+uniform";
+    EXPECT_EQ(sourceTerms(sum).size(), kind.takes == SourceKind::Takes::Numbers ? 2u : 3u) << word;
   }
+  EXPECT_EQ(kindOf("sky.exr"), nullptr);
+  EXPECT_EQ(kindOf("uniform.exr"), nullptr);
 }
 
-TEST_F(LightFile, IsReadable) {
-  sh::RgbCoefficients light(1);
-  light.channel(0)[0] = 0.5f;
-  light.channel(1)[0] = 0.1f;
-  light.channel(2)[0] = 2;
-  ASSERT_TRUE(writeLight(light, path("light.json")));
-  std::ifstream file(path("light.json"));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text,
-            "{\n  \"lambent\": \"light\",\n  \"bands\": 1,\n  \"coefficients\": [\n"
-            "    [0.5, 0.100000001, 2]\n  ]\n}\n");
-}
-
-TEST_F(LightFile, RefusesWhatIsNoLight) {
-  const auto refuse = [&](std::string_view text, std::initializer_list<const char*> words) {
-    const std::string file = write("light.json", text);
-    expectError(file, ErrorKind::BadInput, {"light.json"});
-    expectError(file, ErrorKind::BadInput, words);
-  };
-  refuse("", {"not JSON", "\"coefficients\""});
-  refuse("{\"lambent\": \"light\",\n \"bands\": }", {"not JSON", "line 2"});
-  refuse("[1, 2]", {"\"lambent\": \"light\""});
-  refuse("{\"lambent\": \"asset\"}", {"\"lambent\": \"light\""});
-  refuse(R"({"lambent": "light", "bands": "2"})", {"\"bands\""});
-  refuse(R"({"lambent": "light", "bands": 0, "coefficients": []})", {"\"bands\" is 0"});
-  refuse(R"({"lambent": "light", "bands": 11, "coefficients": []})", {"\"bands\" is 11"});
-  refuse(R"({"lambent": "light", "bands": 99999999999999999999, "coefficients": []})",
-         {"\"bands\""});
-  refuse(R"({"lambent": "light", "bands": 1})", {"\"coefficients\""});
-  refuse(R"({"lambent": "light", "bands": 2, "coefficients": [[1, 2, 3]]})", {"1 rows", "need 4"});
-  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 2]]})", {"row 0", "[r, g, b]"});
-  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 2, "x"]]})",
-         {"row 0, column 2", "\"x\"", "not a number"});
-  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, null, 1]]})",
-         {"row 0, column 1", "null"});
-  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, NaN, 1]]})", {"not JSON"});
-  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 1e39, 1]]})",
-         {"row 0, column 1", "32-bit"});
-  refuse(R"({"lambent": "light", "bands": 1, "coefficients": [[1, 1e999, 1]]})", {"not JSON"});
-  refuse(std::string(2 << 20, ' '), {"too many"});
-  refuse(std::string(100000, '['), {"not JSON"});
-}
-
-TEST_F(LightFile, IsNotWrittenWithNumbersThatAreNone) {
-  sh::RgbCoefficients light(1);
-  light.channel(2)[0] = std::numeric_limits<float>::infinity();
-  EXPECT_FALSE(writeLight(light, path("light.json")));
-  EXPECT_FALSE(std::filesystem::exists(path("light.json")));
-  EXPECT_FALSE(writeLight(sh::RgbCoefficients(1), path("no/such/folder/light.json")));
+TEST_F(Source, HelpHasALineForEveryForm) {
+  EXPECT_EQ(sourceHelp(), R"(SOURCE of light:
+  FILE.exr FILE.hdr FILE.png   an environment image, latitude-longitude
+  LIGHT.json                   coefficients written by 'lambent light'
+  uniform[:RADIANCE]           the same from everywhere
+  disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]
+                               degrees; azimuth from +x towards +z, elevation from the horizon
+  A+B+…                        the sum of several. RADIANCE is one number or R/G/B.
+)");
 }
 
 }  // namespace
-}  // namespace lambent::light
+}  // namespace lambent::sources

@@ -1,0 +1,17 @@
+// LIGHT.json: a light as harmonics, in a file that a person can read.
+#pragma once
+
+#include <filesystem>
+
+#include "lambent/report/result.h"
+#include "lambent/sh/coefficients.h"
+
+namespace lambent::light {
+
+/// {"lambent": "light", "bands": n, "coefficients": [[r, g, b], …]}, one row for each coefficient
+/// in the sequence of sh::index, 1 … 10 bands. Other keys are passed over.
+Result<sh::RgbCoefficients> readLight(const std::filesystem::path& path);
+/// Atomic; every float comes back bit for bit.
+Status writeLight(const sh::RgbCoefficients& light, const std::filesystem::path& path);
+
+}  // namespace lambent::light

@@ -1,0 +1,62 @@
+// The SOURCE of the command line and of view states → Environment. A kind of light is one row of a
+// table: its word, how it is written, and the function that makes it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lambent/light/environment.h"
+#include "lambent/report/finding.h"
+#include "lambent/report/result.h"
+
+namespace lambent::sources {
+
+struct SourceOptions {
+  /// What becomes of an image with channels that are NaN or infinite: it is refused, or repaired as
+  /// image::makeRadiance does, with a finding ("light-pixels-repaired").
+  enum class NotFinite { Refuse, Repair };
+  NotFinite notFinite = NotFinite::Refuse;
+};
+
+/// FILE.exr|.hdr|.png (lat-long, 2:1) | cube:FILE | angular:FILE | ball:FILE (see image::MapKind) |
+/// LIGHT.json | uniform[:RADIANCE] |
+/// disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE] | directional:AZIMUTH,ELEVATION[,IRRADIANCE]
+/// (degrees; azimuth from +x towards +z), and several joined by '+', which add up. RADIANCE
+/// (W m⁻² sr⁻¹) and IRRADIANCE (W m⁻², on a surface that faces the light) are one number or R/G/B.
+///
+/// What cannot be understood is BadUsage, what is wrong with a file BadInput. Negative channels of
+/// an image become 0 ("light-pixels-negative").
+Result<WithFindings<light::Environment>> parseSource(std::string_view text,
+                                                     const SourceOptions& options = {});
+
+/// What a SOURCE is the sum of, in its sequence. A '+' in the name of a file that is there does not
+/// divide.
+std::vector<std::string_view> sourceTerms(std::string_view text);
+
+/// One term of a sum: "disc:45,60,30" has the rest "45,60,30", and "uniform" has none.
+struct Term {
+  std::string_view text;
+  std::optional<std::string_view> rest;
+};
+
+struct SourceKind {
+  enum class Takes { Numbers, File };
+  std::string_view word;    ///< what stands before the colon
+  std::string_view syntax;  ///< "disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]"
+  std::string_view help;    ///< a line for a person; empty: left out of sourceHelp()
+  Takes takes;              ///< of what the rest is
+  Result<WithFindings<light::Environment>> (*make)(const Term&, const SourceOptions&);
+};
+
+/// All that have a word.
+std::span<const SourceKind> sourceKinds();
+/// The kind whose word a term begins with; null if the term is the name of a file.
+const SourceKind* kindOf(std::string_view term);
+
+/// "SOURCE of light:" and a line or two for each of its forms.
+std::string sourceHelp();
+
+}  // namespace lambent::sources
