@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "lambent/math/directions.h"
 #include "lambent/meso/effective_albedo.h"
 #include "lambent/meso/generators.h"
 #include "lambent/render/gl_picture.h"
@@ -79,8 +80,8 @@ light::Environment discLight(const Vec3& direction, double diameterDegrees, cons
 }
 
 Vec3 towards(float azimuth, float elevation) {
-  const float a = azimuth * float(kPi) / 180.0f, e = elevation * float(kPi) / 180.0f;
-  return Vec3(std::cos(a) * std::cos(e), std::sin(e), std::sin(a) * std::cos(e));
+  return math::directionFromAzimuthElevation(azimuth * kPi / 180, elevation * kPi / 180)
+      .cast<float>();
 }
 
 }  // namespace lambent::figures

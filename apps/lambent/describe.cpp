@@ -7,6 +7,7 @@
 
 #include "lambent/asset/names.h"
 #include "lambent/asset/summary.h"
+#include "lambent/math/directions.h"
 #include "lambent/radiometry/luminance.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
@@ -313,8 +314,8 @@ Description describe(const sh::RgbCoefficients& light) {
             {"lowest_luminance", lowest}};
   if (toLight.norm() > 1e-4f * std::max(mean.abs().maxCoeff(), 1e-30f)) {
     const Vec3 u = toLight.normalized();
-    const double azimuth = std::atan2(double(u.z()), double(u.x())) * 180.0 / kPi;
-    const double elevation = std::asin(std::clamp(double(u.y()), -1.0, 1.0)) * 180.0 / kPi;
+    const auto at = math::azimuthElevationOf(Vec3d(u.cast<double>()));
+    const double azimuth = at.azimuth * 180.0 / kPi, elevation = at.elevation * 180.0 / kPi;
     d.text += fmt::format("  most of it from azimuth {:.1f}, elevation {:.1f} degrees\n", azimuth,
                           elevation);
     d.json["azimuth"] = azimuth;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lambent/math/directions.h"
 #include "lambent/radiometry/luminance.h"
 #include "lambent/radiometry/srgb.h"
 #include "lambent/tone/tone_curve.h"
@@ -20,10 +21,7 @@ constexpr int kWidth = 160, kHeight = 80;
 
 // As every latitude-longitude picture here: u = azimuth/2π + ½, elevation = π(½ − v).
 Vec3 directionAt(double u, double v) {
-  const double azimuth = 2.0 * kPi * (u - 0.5), elevation = kPi * (0.5 - v);
-  return Vec3d(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-               std::cos(elevation) * std::sin(azimuth))
-      .cast<float>();
+  return math::directionFromAzimuthElevation(2.0 * kPi * (u - 0.5), kPi * (0.5 - v)).cast<float>();
 }
 
 ImVec2 placeOf(const view::Disc& disc, const ImVec2& corner, const ImVec2& size) {

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "lambent/math/directions.h"
+
 namespace lambent::image {
 namespace {
 
@@ -105,8 +107,7 @@ Vector2d pointInFace(const CubeLayout& layout, int face, const Vector2d& pixel) 
 Vec3d latLongDirection(const MapShape& shape, const Vector2d& pixel) {
   const double azimuth = 2 * kPi * (pixel.x() / shape.width - 0.5);
   const double elevation = kPi * (0.5 - pixel.y() / shape.height);
-  return {std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-          std::cos(elevation) * std::sin(azimuth)};
+  return math::directionFromAzimuthElevation(azimuth, elevation);
 }
 
 /// The disc of a round map as [−1, 1]², y upwards.
@@ -220,10 +221,8 @@ Vector2d pixelOf(const MapShape& shape, const Vec3d& direction) {
   assert(direction.squaredNorm() > 0);
   switch (shape.kind) {
     case MapKind::LatLong: {
-      const double u = std::atan2(direction.z(), direction.x()) / (2 * kPi) + 0.5;
-      // atan2 keeps its accuracy at the poles, asin of a normalised y does not.
-      const double elevation = std::atan2(direction.y(), std::hypot(direction.x(), direction.z()));
-      return {u * shape.width, (0.5 - elevation / kPi) * shape.height};
+      const auto [azimuth, elevation] = math::azimuthElevationOf(direction);
+      return {(azimuth / (2 * kPi) + 0.5) * shape.width, (0.5 - elevation / kPi) * shape.height};
     }
     case MapKind::Cube:
       return pixelInLayout(layoutOf(shape.width, shape.height), facePointOf(direction));

@@ -23,6 +23,7 @@
 
 #include "lambent/light/built_in.h"
 #include "lambent/light/grid_distribution.h"
+#include "lambent/math/directions.h"
 #include "lambent/math/quadrature.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/rotation.h"
@@ -122,8 +123,7 @@ class LatLong final : public Component {
     const double azimuth = 2 * kPi * ((taps.x + 0.5 + taps.u) / im.width - 0.5);
     const double elevation = kPi * (0.5 - (taps.row - 0.5 + taps.v) / im.height);
     const double cosElevation = std::cos(elevation);
-    const Vec3d s(cosElevation * std::cos(azimuth), std::sin(elevation),
-                  cosElevation * std::sin(azimuth));
+    const Vec3d s = math::directionFromAzimuthElevation(azimuth, elevation);
     return {worldFromImage_ * s.cast<float>(), taps.radiance(), density(taps, cosElevation)};
   }
 
@@ -161,15 +161,14 @@ class LatLong final : public Component {
   Taps tapsTowards(const Vec3& direction, double* cosElevation = nullptr) const {
     const image::Image& im = pixels_->image;
     const Vec3 s = worldFromImage_.transpose() * direction;
-    const float horizontal = std::sqrt(s.x() * s.x() + s.z() * s.z());
-    const double azimuth = std::atan2(s.z(), s.x()), elevation = std::atan2(s.y(), horizontal);
+    const auto [azimuth, elevation] = math::azimuthElevationOf(s);
     const double column = (azimuth / (2 * kPi) + 0.5) * im.width - 0.5;
     const double row = (0.5 - elevation / kPi) * im.height + 0.5;
     const double x = std::floor(column), y = std::clamp(std::floor(row), 0.0, double(im.height));
     Taps taps = tapsAt((int(x) + im.width) % im.width, int(y));
     taps.u = column - x;
     taps.v = std::clamp(row - y, 0.0, 1.0);
-    if (cosElevation) *cosElevation = horizontal;
+    if (cosElevation) *cosElevation = std::sqrt(s.x() * s.x() + s.z() * s.z());
     return taps;
   }
 

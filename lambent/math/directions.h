@@ -2,6 +2,8 @@
 // Warps return directions in the tangent frame, +z the axis; u is in [0, 1)².
 #pragma once
 
+#include <cmath>
+
 #include "lambent/math/types.h"
 
 namespace lambent::math {
@@ -38,5 +40,26 @@ float uniformConePdf(float cosTheta, float cosHalfAngle);
 /// The mirror image of the unit vector `outgoing` (pointing away from the surface) about the unit
 /// normal: 2 (n·o) n − o, which points away from the surface as well.
 Vec3 reflectAbout(const Vec3& outgoing, const Vec3& normal);
+
+/// The direction at an azimuth from +x towards +z and an elevation from the horizon up to +y,
+/// radians, as latitude-longitude images and the SOURCE of light have them.
+inline Vec3d directionFromAzimuthElevation(double azimuth, double elevation) {
+  return {std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
+          std::cos(elevation) * std::sin(azimuth)};
+}
+
+template <class Scalar>
+struct AzimuthElevation {
+  Scalar azimuth;    ///< −π … π
+  Scalar elevation;  ///< −π/2 … π/2
+};
+
+/// The inverse, of a direction of any length but 0. Of the tangent, which keeps its digits at the
+/// poles where the sine has none left.
+template <class Scalar>
+AzimuthElevation<Scalar> azimuthElevationOf(const Eigen::Matrix<Scalar, 3, 1>& direction) {
+  const Scalar x = direction.x(), y = direction.y(), z = direction.z();
+  return {std::atan2(z, x), std::atan2(y, std::sqrt(x * x + z * z))};
+}
 
 }  // namespace lambent::math

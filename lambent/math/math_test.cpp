@@ -182,6 +182,27 @@ TEST(Directions, ReflectionPointsAwayFromTheSurface) {
   EXPECT_NEAR((mirrored + out).normalized().dot(n), 1, 1e-6);
 }
 
+TEST(Directions, AzimuthRunsFromXTowardsZAndElevationUpToY) {
+  EXPECT_TRUE(directionFromAzimuthElevation(0, 0).isApprox(Vec3d::UnitX(), 1e-15));
+  EXPECT_TRUE(directionFromAzimuthElevation(kPi / 2, 0).isApprox(Vec3d::UnitZ(), 1e-15));
+  EXPECT_TRUE(directionFromAzimuthElevation(1.0, kPi / 2).isApprox(Vec3d::UnitY(), 1e-15));
+  const double half = std::sqrt(0.5);
+  EXPECT_TRUE(directionFromAzimuthElevation(kPi, -kPi / 4).isApprox(Vec3d(-half, -half, 0), 1e-15));
+  Random random(8, 2);
+  for (int i = 0; i < 1000; ++i) {
+    const double azimuth = 2 * kPi * (random.uniform() - 0.5);
+    // Near to a pole too, where the sine of the elevation is 1 in every digit.
+    const double fromPole = kPi * std::pow(10.0, -9.0 * random.uniform());
+    const double elevation = i % 2 ? kPi / 2 - fromPole : fromPole - kPi / 2;
+    const Vec3d direction = directionFromAzimuthElevation(azimuth, elevation);
+    EXPECT_NEAR(direction.norm(), 1, 1e-15);
+    const auto back = azimuthElevationOf(Vec3d(3 * direction));
+    EXPECT_NEAR(back.elevation, elevation, 1e-15);
+    EXPECT_NEAR(back.azimuth, azimuth, 1e-14 + 1e-15 / fromPole);
+    EXPECT_NEAR(azimuthElevationOf(Vec3(direction.cast<float>())).elevation, elevation, 1e-6);
+  }
+}
+
 TEST(Statistics, RunsMergeToTheWhole) {
   RunningMoments whole, left, right;
   Random random(1, 1);

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "lambent/math/directions.h"
+
 namespace lambent::render {
 namespace {
 
@@ -25,8 +27,7 @@ Texture pictureOf(const Environment& environment, int width) {
     const double elevation = kPi * (0.5 - (y + 0.5) / height);
     for (int x = 0; x < width; ++x) {
       const double azimuth = 2.0 * kPi * ((x + 0.5) / width - 0.5);
-      const Vec3d direction(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-                            std::cos(elevation) * std::sin(azimuth));
+      const Vec3d direction = math::directionFromAzimuthElevation(azimuth, elevation);
       texels[std::size_t(y) * width + x] = environment.radiance(direction.cast<float>());
     }
   });

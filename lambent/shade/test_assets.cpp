@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/math/directions.h"
 #include "lambent/sh/product.h"
 #include "lambent/sh/zonal.h"
 
@@ -196,8 +197,7 @@ light::Environment sky() {
     for (int x = 0; x < image.width; ++x) {
       const double azimuth = 2 * kPi * ((x + 0.5) / image.width - 0.5);
       const double elevation = kPi * (0.5 - (y + 0.5) / image.height);
-      const Vec3 d(float(std::cos(elevation) * std::cos(azimuth)), float(std::sin(elevation)),
-                   float(std::cos(elevation) * std::sin(azimuth)));
+      const Vec3 d = math::directionFromAzimuthElevation(azimuth, elevation).cast<float>();
       const float up = 0.5f + 0.5f * d.y();
       image.at(x, y) = Rgb(0.25f, 0.2f, 0.15f) * (1 - up) + Rgb(0.3f, 0.5f, 0.9f) * up +
                        Rgb(6.0f, 4.5f, 2.5f) * std::exp(12.0f * (d.dot(sun) - 1.0f));

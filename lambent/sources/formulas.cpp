@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "lambent/math/directions.h"
 #include "lambent/sources/kinds.h"
 #include "lambent/sources/numbers.h"
 
@@ -11,11 +12,6 @@ namespace lambent::sources {
 using light::Environment;
 
 namespace {
-
-Vec3 towards(double azimuth, double elevation) {
-  const double a = azimuth * kPi / 180, e = elevation * kPi / 180;
-  return Vec3d(std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a)).cast<float>();
-}
 
 /// AZIMUTH,ELEVATION[,more…] with an optional colour at the end.
 struct Aimed {
@@ -52,7 +48,9 @@ Result<Aimed> parseAimed(std::string_view term, std::string_view arguments, bool
                     "without extent write directional:AZIMUTH,ELEVATION,IRRADIANCE)",
                     parts[2]),
         example);
-  Aimed aimed{.direction = towards(values[0], values[1]), .diameter = values[2]};
+  const Vec3d direction =
+      math::directionFromAzimuthElevation(values[0] * kPi / 180, values[1] * kPi / 180);
+  Aimed aimed{.direction = direction.cast<float>(), .diameter = values[2]};
   if (parts.size() > needed) {
     const std::optional<Rgb> given = color(parts[needed]);
     if (!given)

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/math/directions.h"
 #include "lambent/scene/camera.h"
 
 namespace lambent::view {
@@ -47,16 +48,15 @@ void turnObject(ViewState& state, const Vec3d& pivot, const Vec3d& axis, double 
 }
 
 Vec3 directionOf(const Disc& disc) {
-  const double azimuth = disc.azimuth * kRadians, elevation = disc.elevation * kRadians;
-  return Vec3d(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-               std::cos(elevation) * std::sin(azimuth))
+  return math::directionFromAzimuthElevation(disc.azimuth * kRadians, disc.elevation * kRadians)
       .cast<float>();
 }
 
 void aim(Disc& disc, const Vec3& direction) {
   const Vec3d d = direction.cast<double>().normalized();
-  disc.elevation = std::asin(std::clamp(d.y(), -1.0, 1.0)) / kRadians;
-  if (std::hypot(d.x(), d.z()) > 1e-9) disc.azimuth = std::atan2(d.z(), d.x()) / kRadians;
+  const auto [azimuth, elevation] = math::azimuthElevationOf(d);
+  disc.elevation = elevation / kRadians;
+  if (std::hypot(d.x(), d.z()) > 1e-9) disc.azimuth = azimuth / kRadians;
 }
 
 light::Environment environmentOf(const Disc& disc) {

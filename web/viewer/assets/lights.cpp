@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lambent/image/maps.h"
+#include "lambent/math/directions.h"
 #include "web/viewer/assets/scenes.h"
 
 namespace lambent::page {
@@ -50,8 +51,7 @@ image::Image map(int height, const Radiance& radiance) {
 }
 
 Vec3d aimed(double azimuth, double elevation) {
-  const double a = azimuth * kPi / 180, e = elevation * kPi / 180;
-  return {std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a)};
+  return math::directionFromAzimuthElevation(azimuth * kPi / 180, elevation * kPi / 180);
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ import {
   Vector3,
 } from "three";
 import { LambentLight, type Disc } from "three-lambent";
+import { directionFromAzimuthElevation, kRadians } from "./directions";
 import { asEquirectangular, decodeMap, reduced, type LightMap } from "./environment_map";
 import { parseSource } from "./source";
 import type { Triple } from "./view_state";
 
-const kRadians = Math.PI / 180;
 /** Angular diameter that stands for a light without extent, degrees: nothing of 10 bands sees it. */
 const kPointLike = 0.02;
 
@@ -35,12 +35,6 @@ export interface LoadedEnvironment {
   /** The light in n bands, before it is turned; held for the next call. */
   light(bands: number): LambentLight;
   dispose(): void;
-}
-
-/** Azimuth from +x towards +z, elevation above the horizon; degrees. */
-export function towards(azimuth: number, elevation: number): Vector3 {
-  const [a, e] = [azimuth * kRadians, elevation * kRadians];
-  return new Vector3(Math.cos(e) * Math.cos(a), Math.sin(e), Math.cos(e) * Math.sin(a));
 }
 
 /**
@@ -62,7 +56,10 @@ export async function loadEnvironment(
       term.radiance.forEach((each, c) => (uniform[c]! += each));
     } else if (term.kind === "disc") {
       seen.push({
-        direction: towards(term.azimuth, term.elevation),
+        direction: directionFromAzimuthElevation(
+          term.azimuth * kRadians,
+          term.elevation * kRadians,
+        ),
         diameter: term.diameter * kRadians,
         radiance: term.radiance,
       });
@@ -70,7 +67,10 @@ export async function loadEnvironment(
       const half = (kPointLike * kRadians) / 2;
       const solidAngle = Math.PI * Math.sin(half) ** 2; // projected: what irradiance is made of
       hidden.push({
-        direction: towards(term.azimuth, term.elevation),
+        direction: directionFromAzimuthElevation(
+          term.azimuth * kRadians,
+          term.elevation * kRadians,
+        ),
         diameter: 2 * half,
         radiance: term.irradiance.map((each) => each / solidAngle) as Triple,
       });
@@ -132,7 +132,7 @@ function sumOfMaps(maps: readonly LightMap[], harmonics: readonly LambentLight[]
     for (let x = 0; x < width; ++x) {
       const at = 4 * (y * width + x);
       const [u, v] = [(x + 0.5) / width, (y + 0.5) / height];
-      direction.copy(towards(360 * (u - 0.5), 180 * (0.5 - v)));
+      direction.copy(directionFromAzimuthElevation(2 * Math.PI * (u - 0.5), Math.PI * (0.5 - v)));
       for (const light of harmonics)
         light.radiance(direction).forEach((each, c) => (data[at + c]! += each));
       for (const map of maps) {

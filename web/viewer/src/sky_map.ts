@@ -4,7 +4,8 @@ import { Quaternion, Vector3 } from "three";
 import { filmic, srgbEncode } from "three-lambent";
 import { h } from "./dom";
 import { pixelAt } from "./environment_map";
-import { towards, type LoadedEnvironment } from "./environments";
+import { azimuthElevationOf, directionFromAzimuthElevation } from "./directions";
+import type { LoadedEnvironment } from "./environments";
 import type { DiscState, ViewState } from "./view_state";
 
 const kWidth = 208;
@@ -95,12 +96,17 @@ export class SkyMap {
     const [pixels, uniform] = [this.sky.data, environment?.uniform ?? [0, 0, 0]];
     for (let y = 0, at = 0; y < kHeight; ++y)
       for (let x = 0; x < kWidth; ++x, at += 4) {
-        direction.copy(towards(360 * ((x + 0.5) / kWidth - 0.5), 180 * (0.5 - (y + 0.5) / kHeight)));
+        direction.copy(
+          directionFromAzimuthElevation(
+            2 * Math.PI * ((x + 0.5) / kWidth - 0.5),
+            Math.PI * (0.5 - (y + 0.5) / kHeight),
+          ),
+        );
         direction.applyQuaternion(back);
         const color = [...uniform];
         if (environment?.map) {
-          const u = Math.atan2(direction.z, direction.x) / (2 * Math.PI) + 0.5;
-          const v = 0.5 - Math.asin(Math.max(-1, Math.min(1, direction.y))) / Math.PI;
+          const { azimuth, elevation } = azimuthElevationOf(direction);
+          const [u, v] = [azimuth / (2 * Math.PI) + 0.5, 0.5 - elevation / Math.PI];
           pixelAt(environment.map, u, v).forEach((each, c) => (color[c]! += each));
         }
         for (const disc of environment?.discs ?? [])

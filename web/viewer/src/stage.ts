@@ -24,7 +24,8 @@ import {
   type Environment,
 } from "three-lambent";
 import { Accumulator } from "./accumulator";
-import { towards, type LoadedEnvironment } from "./environments";
+import { directionFromAzimuthElevation, kRadians } from "./directions";
+import type { LoadedEnvironment } from "./environments";
 import type { LoadedAsset } from "./load_asset";
 import { kMostDiscs, type LookAt, type Triple, type ViewState } from "./view_state";
 
@@ -145,8 +146,8 @@ export class Stage {
     this.tone.exposure = view.exposure;
     this.tone.curve = view.tone;
     const discs: Disc[] = view.discs.map((disc) => ({
-      direction: towards(disc.azimuth, disc.elevation),
-      diameter: (disc.diameter * Math.PI) / 180,
+      direction: directionFromAzimuthElevation(disc.azimuth * kRadians, disc.elevation * kRadians),
+      diameter: disc.diameter * kRadians,
       radiance: disc.radiance,
     }));
     const turn = new Quaternion(...view.environment.rotation);

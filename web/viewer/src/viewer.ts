@@ -1,5 +1,6 @@
 // What is shown and how it changes: the view, the files behind it, and the frames that show it.
 import { Vector3 } from "three";
+import { azimuthElevationOf, kRadians } from "./directions";
 import { loadEnvironment, type LoadedEnvironment, type ReadFile } from "./environments";
 import { FrameGraph } from "./frame_graph";
 import { listen } from "./gestures";
@@ -157,7 +158,8 @@ export class Viewer {
     if (this.view.discs.length >= kMostDiscs)
       return this.messages.note(`There can be ${kMostDiscs} discs: mirrors can show no more.`);
     const { position, target } = this.camera();
-    const azimuth = (180 / Math.PI) * Math.atan2(position[2] - target[2], position[0] - target[0]);
+    const back = new Vector3(...position).sub(new Vector3(...target));
+    const azimuth = azimuthElevationOf(back).azimuth / kRadians;
     const turned = azimuth + 50 + 65 * this.view.discs.length;
     const disc: DiscState = {
       azimuth: Math.round(turned - 360 * Math.round(turned / 360)),
