@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
@@ -35,6 +38,36 @@ CLI::Option* addParsed(CLI::App& app, const std::string& name, V& value,
         value = *parsed;
       },
       description);
+}
+
+/// The words that an option takes, and what each stands for.
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// The word for one of the values.
+template <class Value>
+std::string wordOf(const Value& value, const Choices<Value>& choices) {
+  for (const auto& [word, meant] : choices)
+    if (meant == value) return word;
+  return {};
+}
+
+/// An option that takes one of a few words. The word for what `value` holds is its default; a
+/// std::optional that is empty has none.
+template <class Value>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
+                       const Choices<std::type_identity_t<Value>>& choices,
+                       const std::string& description) {
+  std::vector<std::string> words;
+  for (const auto& choice : choices) words.push_back(choice.first);
+  CLI::Option* option = app.add_option_function<std::string>(
+      name,
+      [&value, choices](const std::string& given) {
+        for (const auto& [word, meant] : choices)
+          if (word == given) value = meant;
+      },
+      description);
+  return option->check(CLI::IsMember(words))->default_str(wordOf(value, choices));
 }
 
 /// Whether a file can appear at `path`, with one of `extensions`, without replacing `input`: asked

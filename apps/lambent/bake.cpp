@@ -24,7 +24,7 @@ struct BakeArguments {
   SceneArguments scene;
   std::filesystem::path output;
   TransferArguments transfer;
-  std::string encoding = "float16";
+  encode::Encoding encoding = encode::Encoding::Float16;
   std::vector<std::string> texels;  ///< MESH=WxH, or WxH for every mesh with UVs
 };
 
@@ -101,10 +101,8 @@ Status runBake(BakeArguments arguments, Console& console) {
   if (!field) return field.error();
 
   asset::Asset asset;
-  asset.transfer = console.stage("encode", [&] {
-    return encode::encode(*field, arguments.encoding == "float32" ? encode::Encoding::Float32
-                                                                  : encode::Encoding::Float16);
-  });
+  asset.transfer =
+      console.stage("encode", [&] { return encode::encode(*field, arguments.encoding); });
   *field = {};  // as large as the asset again
   asset.scene = std::move(*scene);
   Status status =
@@ -182,10 +180,10 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
         return size ? "" : size.error().message;
       })
       ->group("Transfer");
-  app->add_option("--encoding", arguments->encoding, "float16, or float32 for exact round trips")
-      ->check(CLI::IsMember({"float16", "float32"}))
+  addChoice(*app, "--encoding", arguments->encoding,
+            {{"float16", encode::Encoding::Float16}, {"float32", encode::Encoding::Float32}},
+            "float16, or float32 for exact round trips")
       ->option_text("KIND")
-      ->capture_default_str()
       ->group("Output");
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runBake(*arguments, console); }};

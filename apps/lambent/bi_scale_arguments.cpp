@@ -1,5 +1,7 @@
 #include "apps/lambent/bi_scale_arguments.h"
 
+#include "apps/lambent/arguments.h"
+
 namespace lambent::tool {
 
 void BiScaleArguments::addTo(CLI::App& app) {
@@ -10,20 +12,16 @@ void BiScaleArguments::addTo(CLI::App& app) {
       ->option_text("KIND")
       ->capture_default_str()
       ->group("Meso-structure");
-  app.add_option("--view-dependence", viewDependence,
-                 "off: everywhere as seen from straight above, as if pasted on")
-      ->check(CLI::IsMember({"on", "off"}))
+  addChoice(app, "--view-dependence", viewDependent, {{"on", true}, {"off", false}},
+            "off: everywhere as seen from straight above, as if pasted on")
       ->option_text("on|off")
-      ->capture_default_str()
       ->group("Meso-structure");
 }
 
 void BiScaleArguments::addFilterTo(CLI::App& app) {
-  app.add_option("--filter", filter,
-                 "Average the meso-structure over what a sample covers. off: its nearest position")
-      ->check(CLI::IsMember({"on", "off"}))
+  addChoice(app, "--filter", filter, {{"on", true}, {"off", false}},
+            "Average the meso-structure over what a sample covers. off: its nearest position")
       ->option_text("on|off")
-      ->capture_default_str()
       ->group("Meso-structure");
 }
 
@@ -32,8 +30,8 @@ shade::BiScaleOptions BiScaleArguments::options() const {
   if (macro == "off") result.macro = shade::MacroTransport::Off;
   if (macro == "shadowed") result.macro = shade::MacroTransport::Shadowed;
   if (macro == "interreflected") result.macro = shade::MacroTransport::Interreflected;
-  result.viewDependent = viewDependence == "on";
-  result.filter = filter == "on";
+  result.viewDependent = viewDependent;
+  result.filter = filter;
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace lambent::tool {
 
 struct BiScaleArguments {
   std::string macro = "best";
-  std::string viewDependence = "on", filter = "on";
+  bool viewDependent = true, filter = true;
 
   void addTo(CLI::App& app);
   void addFilterTo(CLI::App& app);

@@ -231,7 +231,7 @@ Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
   tone::CompareOptions options;
   options.displayReferred = developed;
   options.exposureEv = developed && automatic ? 0.0f : arguments.development.exposureFor(*a);
-  options.curve = developed ? tone::Curve::Linear : arguments.development.curve();
+  options.curve = developed ? tone::Curve::Linear : arguments.development.curve;
   const auto whole = console.stage("compare", [&] { return tone::compare(*b, *a, options); });
   if (!whole) return badInput(arguments.truth.string() + ": " + whole.error().message);
   const auto [truth, judged] = covered(*a, *b);

@@ -49,20 +49,16 @@ void DevelopmentArguments::addTo(CLI::App& app) {
       ->option_text("EV|auto")
       ->capture_default_str()
       ->group("Development");
-  app.add_option("--tone", tone, "Tone curve of PNG pictures: filmic or linear")
-      ->check(CLI::IsMember({"filmic", "linear"}))
+  addChoice(app, "--tone", curve,
+            {{"filmic", tone::Curve::Filmic}, {"linear", tone::Curve::Linear}},
+            "Tone curve of PNG pictures: filmic or linear")
       ->option_text("CURVE")
-      ->capture_default_str()
       ->group("Development");
 }
 
 float DevelopmentArguments::exposureFor(const image::Image& picture) const {
   const Result<double> number = parseNumber(exposure);
   return number ? float(*number) : automaticExposure(picture);
-}
-
-tone::Curve DevelopmentArguments::curve() const {
-  return tone == "linear" ? tone::Curve::Linear : tone::Curve::Filmic;
 }
 
 namespace {

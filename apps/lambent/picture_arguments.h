@@ -24,12 +24,11 @@ struct ViewArguments {
 
 struct DevelopmentArguments {
   std::string exposure = "auto";  ///< EV, or auto
-  std::string tone = "filmic";
+  tone::Curve curve = tone::Curve::Filmic;
 
   void addTo(CLI::App& app);
   /// The exposure in EV for this picture.
   float exposureFor(const image::Image& picture) const;
-  tone::Curve curve() const;
 };
 
 /// The EV that takes the log-average luminance of what is covered and lit to a middle grey.

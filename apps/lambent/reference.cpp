@@ -14,7 +14,9 @@
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/state_arguments.h"
+#include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
+#include "lambent/asset/names.h"
 #include "lambent/image/io.h"
 #include "lambent/reference/path_tracer.h"
 #include "lambent/sources/source.h"
@@ -32,7 +34,7 @@ struct Arguments {
   ViewArguments view;
   DevelopmentArguments development;
   reference::PathTraceOptions options;
-  std::string transfer = "interreflected";
+  transport::TransferKind transfer = transport::TransferKind::Interreflected;
   int bands = 0;
   std::optional<Vec3> eye;
   const CLI::App* app = nullptr;
@@ -120,8 +122,9 @@ Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
 /// What the state says where no flag does: the material's lobe, and which transport there is.
 void take(const view::ViewState& state, Arguments& arguments) {
   if (!arguments.given("--lobe")) arguments.scene.lobeExponent = state.lobe;
-  if (!arguments.given("--transfer") && state.transfer != shade::TransferChoice::Best)
-    arguments.transfer = std::string(shade::nameOf(state.transfer));
+  if (!arguments.given("--transfer"))
+    if (const auto kind = asset::transferKindNamed(shade::nameOf(state.transfer)))
+      arguments.transfer = *kind;  // of any but the best that there is
   arguments.view.background = arguments.view.background || state.background;
 }
 
@@ -175,8 +178,8 @@ Status runReference(Arguments arguments, Console& console) {
   if (!rays) return rays.error();
 
   reference::PathTraceOptions& options = arguments.options;
-  options.shadows = arguments.transfer != "unshadowed";
-  if (arguments.transfer != "interreflected") options.bounces = 0;
+  options.shadows = arguments.transfer != transport::TransferKind::Unshadowed;
+  if (arguments.transfer != transport::TransferKind::Interreflected) options.bounces = 0;
   options.background = arguments.view.background;
   options.threads = console.options().threads;
   if (asksForReceivers(arguments.output))
@@ -195,7 +198,7 @@ Status runReference(Arguments arguments, Console& console) {
     if (linear)
       return image::write(picture->mean, arguments.output,
                           {.halfFloat = false, .layers = {{"variance", &picture->variance}}});
-    return image::write(tone::toneMap(picture->mean, ev, arguments.development.curve()),
+    return image::write(tone::toneMap(picture->mean, ev, arguments.development.curve),
                         arguments.output);
   }));
   if (!status) return status;
@@ -245,11 +248,9 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
       ->option_text("N")
       ->capture_default_str()
       ->group("Simulation");
-  app->add_option("--transfer", arguments->transfer,
-                  "unshadowed, shadowed, or interreflected, as in a bake")
-      ->check(CLI::IsMember({"unshadowed", "shadowed", "interreflected"}))
+  addChoice(*app, "--transfer", arguments->transfer, transferKinds(),
+            "unshadowed, shadowed, or interreflected, as in a bake")
       ->option_text("KIND")
-      ->capture_default_str()
       ->group("Simulation");
   app->add_option("--seed", arguments->options.seed, "Two seeds have independent noise")
       ->option_text("N")

@@ -26,13 +26,19 @@ namespace lambent::tool {
 
 namespace {
 
+enum class Backend { Gl, Cpu };
+
+Choices<Backend> backends() {
+  return {{"gl", Backend::Gl}, {"cpu", Backend::Cpu}};
+}
+
 struct Arguments {
   std::filesystem::path asset, output;
   LightArguments light;
   StateArguments state;
   ViewArguments view;
   DevelopmentArguments development;
-  std::string backend = "gl";
+  Backend backend = Backend::Gl;
   int samples = 16;
   std::optional<double> lobeExponent;
   ChoiceArguments choice;
@@ -112,12 +118,12 @@ Status runRender(Arguments arguments, Console& console) {
   const shade::PictureOptions options =
       state ? pictureOptions(arguments, *state) : pictureOptions(arguments);
   if (Status s = checkHeld(*asset, options.transfer, arguments.asset); !s) return s;
-  const auto backend = arguments.backend == "gl" ? &render::picture : &shade::picture;
+  const auto backend = arguments.backend == Backend::Gl ? &render::picture : &shade::picture;
   const auto began = std::chrono::steady_clock::now();
   auto picture =
       backend(*asset, shot->light, shot->environment, shot->camera, options, console.progress());
   if (!picture) {
-    if (arguments.backend == "gl" && picture.error().kind == ErrorKind::Failed)
+    if (arguments.backend == Backend::Gl && picture.error().kind == ErrorKind::Failed)
       return failed(picture.error().message + ". --backend cpu needs no OpenGL");
     return picture.error();
   }
@@ -131,21 +137,22 @@ Status runRender(Arguments arguments, Console& console) {
   const float ev = exposed ? arguments.development.exposureFor(*picture) : 0.0f;
   Status status = written(console.stage("write", [&] {
     if (!linear)
-      return image::write(tone::toneMap(*picture, ev, arguments.development.curve()),
+      return image::write(tone::toneMap(*picture, ev, arguments.development.curve),
                           arguments.output);
     if (exposed)
       for (Rgb& pixel : picture->pixels) pixel *= std::exp2(ev);
     return image::write(*picture, arguments.output);
   }));
   if (!status) return status;
+  const std::string name = wordOf(arguments.backend, backends());
   console.finish(
       {{"output", arguments.output.string()},
-       {"backend", arguments.backend},
+       {"backend", name},
        {"exposure", ev},
        {"seconds", seconds},
        {"picture", describe(*picture).json}},
       fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", arguments.output.string(),
-                  formatSize(arguments.view.size), arguments.backend, ev, formatSeconds(seconds)));
+                  formatSize(arguments.view.size), name, ev, formatSeconds(seconds)));
   return Status::ok();
 }
 
@@ -167,10 +174,9 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
       ->option_text("OUT.png|OUT.exr")
       ->required();
   arguments->view.addTo(*app);
-  app->add_option("--backend", arguments->backend, "gl (OpenGL 4.5, without a window) or cpu")
-      ->check(CLI::IsMember({"gl", "cpu"}))
+  addChoice(*app, "--backend", arguments->backend, backends(),
+            "gl (OpenGL 4.5, without a window) or cpu")
       ->option_text("NAME")
-      ->capture_default_str()
       ->group("Picture");
   app->add_option("--samples", arguments->samples, "Samples per pixel against jagged edges")
       ->check(CLI::Range(1, 4096))

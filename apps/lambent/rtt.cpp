@@ -12,6 +12,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/verbs.h"
+#include "lambent/asset/names.h"
 #include "lambent/asset/rtt_file.h"
 #include "lambent/encode/encoded_field.h"
 #include "lambent/image/io.h"
@@ -27,11 +28,15 @@ namespace lambent::tool {
 
 namespace {
 
+Choices<meso::RttMethod> methods() {
+  return {{"gather", meso::RttMethod::Gather}, {"images", meso::RttMethod::Images}};
+}
+
 struct Arguments {
   std::string patch;
   std::filesystem::path output, previewPath, patchPath;
-  std::string size, positions = "64x64", method = "gather", encoding = "snorm8", up = "y";
-  std::string lights = "8x16";
+  std::string size, positions = "64x64", lights = "8x16";
+  encode::Encoding encoding = encode::Encoding::Snorm8;
   std::optional<Rgb> albedo, backing, gloss;
   std::optional<double> depth, lobe;
   meso::RttOptions rtt;
@@ -102,7 +107,6 @@ Result<meso::Patch> makePatch(const Arguments& arguments, const std::optional<Ve
   if (arguments.depth) options.depth = float(*arguments.depth);
   if (arguments.albedo) options.albedo = *arguments.albedo;
   if (arguments.backing) options.backing = *arguments.backing;
-  options.up = arguments.up == "z" ? meso::UpAxis::Z : meso::UpAxis::Y;
   Findings findings;
   auto patch =
       console.stage("load", [&] { return meso::loadPatch(arguments.patch, options, findings); });
@@ -138,7 +142,6 @@ Status runRtt(Arguments arguments, Console& console) {
   meso::RttOptions& options = arguments.rtt;
   options.width = positions.width, options.height = positions.height;
   options.polarLights = lights.width, options.azimuthLights = lights.height;
-  options.method = arguments.method == "images" ? meso::RttMethod::Images : meso::RttMethod::Gather;
   options.threads = console.options().threads;
 
   Findings findings;
@@ -174,11 +177,8 @@ Status runRtt(Arguments arguments, Console& console) {
   console.report(findings);
   if (!rtt) return rtt.error();
 
-  const encode::Encoding encoding = arguments.encoding == "float32"   ? encode::Encoding::Float32
-                                    : arguments.encoding == "float16" ? encode::Encoding::Float16
-                                                                      : encode::Encoding::Snorm8;
   const encode::EncodedRtt encoded =
-      console.stage("encode", [&] { return encode::encode(*rtt, encoding); });
+      console.stage("encode", [&] { return encode::encode(*rtt, arguments.encoding); });
   const double error = encodingError(*rtt, encoded);
   const Rgb albedo = meso::effectiveAlbedo(*rtt);
   Status status =
@@ -208,9 +208,9 @@ Status runRtt(Arguments arguments, Console& console) {
        {"bands", rtt->bands},
        {"size", {rtt->size.x(), rtt->size.y()}},
        {"depth", rtt->depth},
-       {"method", measured ? "measured" : arguments.method},
+       {"method", measured ? "measured" : wordOf(options.method, methods())},
        {"bounces", measured ? 0 : options.bounces},
-       {"encoding", arguments.encoding},
+       {"encoding", asset::nameOf(arguments.encoding)},
        {"encoding_error", error},
        {"effective_albedo", asJson(albedo)},
        {"rays", rays},
@@ -222,9 +222,10 @@ Status runRtt(Arguments arguments, Console& console) {
                   "{}{} in all\n{}",
                   arguments.output.string(), formatBytes(double(bytes)), rtt->width, rtt->height,
                   rtt->views, rtt->views, rtt->bands, double(rtt->size.x()), double(rtt->size.y()),
-                  double(rtt->depth), albedo[0], albedo[1], albedo[2], arguments.encoding,
-                  100.0 * error, rays > 0 ? formatCount(rays) + " rays, " : std::string(),
-                  formatSeconds(seconds), times));
+                  double(rtt->depth), albedo[0], albedo[1], albedo[2],
+                  asset::nameOf(arguments.encoding), 100.0 * error,
+                  rays > 0 ? formatCount(rays) + " rays, " : std::string(), formatSeconds(seconds),
+                  times));
   return Status::ok();
 }
 
@@ -276,11 +277,9 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
       ->option_text("FRACTION")
       ->capture_default_str()
       ->group(kPatch);
-  app->add_option("--up", arguments->up,
-                  "The axis of a mesh file that points away from the patch: y (glTF's up) or z")
-      ->check(CLI::IsMember({"y", "z"}))
+  addChoice(*app, "--up", arguments->file.up, {{"y", meso::UpAxis::Y}, {"z", meso::UpAxis::Z}},
+            "The axis of a mesh file that points away from the patch: y (glTF's up) or z")
       ->option_text("AXIS")
-      ->capture_default_str()
       ->group(kPatch);
   addParsed(*app, "--backing", arguments->backing, parseRgb,
             "Reflectance of the plane under a mesh that is open below. Default: 0.05")
@@ -324,12 +323,10 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);
-  app->add_option("--method", arguments->method,
-                  "gather: light is gathered in the basis at every point seen; images: summed over "
-                  "images under directional lights, as in the paper")
-      ->check(CLI::IsMember({"gather", "images"}))
+  addChoice(*app, "--method", options.method, methods(),
+            "gather: light is gathered in the basis at every point seen; images: summed over "
+            "images under directional lights, as in the paper")
       ->option_text("NAME")
-      ->capture_default_str()
       ->group(kRtt);
   app->add_option("--directions", options.directions,
                   "Directions over the whole sphere, from every point seen. Twice as many: twice "
@@ -355,11 +352,12 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
       ->capture_default_str()
       ->group(kRtt);
 
-  app->add_option("--encoding", arguments->encoding,
-                  "snorm8 (as textures on a GPU), float16, or float32 for exact round trips")
-      ->check(CLI::IsMember({"snorm8", "float16", "float32"}))
+  addChoice(*app, "--encoding", arguments->encoding,
+            {{"snorm8", encode::Encoding::Snorm8},
+             {"float16", encode::Encoding::Float16},
+             {"float32", encode::Encoding::Float32}},
+            "snorm8 (as textures on a GPU), float16, or float32 for exact round trips")
       ->option_text("KIND")
-      ->capture_default_str()
       ->group("Output");
   app->add_option("--preview", arguments->previewPath,
                   "A picture of the patch on a square, from two sides, under three lights")

@@ -19,14 +19,16 @@ void overrideMaterial(const SceneArguments& arguments, scene::Material& material
                   : material.isDiffuse() ? material.diffuse
                                          : material.glossy;
   const Rgb reflectance = arguments.albedo.value_or(own);
-  std::string kind = arguments.material;
-  if (kind.empty() && arguments.albedo)
-    kind = material.isMirror() ? "mirror" : material.isDiffuse() ? "diffuse" : "glossy";
-  if (!kind.empty()) {
+  std::optional<MaterialKind> kind = arguments.material;
+  if (!kind && arguments.albedo)
+    kind = material.isMirror()    ? MaterialKind::Mirror
+           : material.isDiffuse() ? MaterialKind::Diffuse
+                                  : MaterialKind::Glossy;
+  if (kind) {
     material.diffuse = material.glossy = material.mirror = Rgb::Zero();
-    (kind == "mirror"   ? material.mirror
-     : kind == "glossy" ? material.glossy
-                        : material.diffuse) = reflectance;
+    (kind == MaterialKind::Mirror   ? material.mirror
+     : kind == MaterialKind::Glossy ? material.glossy
+                                    : material.diffuse) = reflectance;
   }
   if (arguments.lobeExponent) material.lobeExponent = float(*arguments.lobeExponent);
 }
@@ -50,9 +52,11 @@ void addGround(scene::Scene& scene) {
 
 void SceneArguments::addTo(CLI::App& app) {
   app.add_option("SCENE", path, "The scene: .glb, .gltf, .obj or .ply")->required();
-  app.add_option("--material", material,
-                 "Make every surface diffuse, glossy or mirror, whatever the file says")
-      ->check(CLI::IsMember({"diffuse", "glossy", "mirror"}))
+  addChoice(app, "--material", material,
+            {{"diffuse", MaterialKind::Diffuse},
+             {"glossy", MaterialKind::Glossy},
+             {"mirror", MaterialKind::Mirror}},
+            "Make every surface diffuse, glossy or mirror, whatever the file says")
       ->option_text("KIND")
       ->group("Material");
   addParsed(app, "--albedo", albedo, parseRgb,

@@ -12,9 +12,11 @@
 
 namespace lambent::tool {
 
+enum class MaterialKind { Diffuse, Glossy, Mirror };
+
 struct SceneArguments {
   std::filesystem::path path;
-  std::string material;  ///< diffuse, glossy, mirror or empty: as the file says
+  std::optional<MaterialKind> material;  ///< none: as the file says
   std::optional<Rgb> albedo;
   std::optional<double> lobeExponent;
   bool ground = false;  ///< a grey floor under the scene

@@ -37,8 +37,7 @@ Result<view::ViewState> StateArguments::read(const CLI::App& app, const LightArg
   if (app.count("--window")) state->window = light.window;
   if (app.count("--background")) state->background = view.background;
   if (!app.count("--exposure")) development.exposure = fmt::format("{}", state->exposure);
-  if (!app.count("--tone"))
-    development.tone = state->tone == tone::Curve::Linear ? "linear" : "filmic";
+  if (!app.count("--tone")) development.curve = state->tone;
   return state;
 }
 

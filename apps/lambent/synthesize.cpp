@@ -26,7 +26,7 @@ struct Arguments {
   TransferArguments transfer;
   std::filesystem::path rtt, output, atlasPicture;
   std::vector<std::string> meshes;
-  std::string map = "synthesized", encoding = "snorm8", tiles;
+  std::string tiles;
   bi_scale::SpreadOptions options;
   std::optional<Vec3> direction;
 };
@@ -125,8 +125,6 @@ Status run(Arguments arguments, Console& console) {
   auto meshes = chosenMeshes(arguments, *scene);
   if (!meshes) return meshes.error();
   options.meshes = *meshes;
-  options.placement =
-      arguments.map == "uv" ? bi_scale::Placement::OwnUvs : bi_scale::Placement::Synthesized;
   if (!arguments.tiles.empty()) {
     if (options.placement != bi_scale::Placement::OwnUvs)
       return badUsage("--tiles says how often UVs repeat the patch: it goes with --map uv");
@@ -138,9 +136,6 @@ Status run(Arguments arguments, Console& console) {
   options.transfer = arguments.transfer.chosen(console);
   options.transfer.bands = rtt->bands;
   options.seed = options.transfer.seed;
-  options.matrixEncoding = arguments.encoding == "snorm8"    ? encode::Encoding::Snorm8
-                           : arguments.encoding == "float32" ? encode::Encoding::Float32
-                                                             : encode::Encoding::Float16;
   options.albedo = meso::effectiveAlbedo(encode::decode(*rtt));
 
   Findings findings;
@@ -209,12 +204,12 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("LENGTH")
       ->capture_default_str()
       ->group("Placement");
-  app->add_option("--map", arguments->map,
-                  "synthesized: texture synthesis over the surface; uv: the mesh's own UVs repeat "
-                  "the patch")
-      ->check(CLI::IsMember({"synthesized", "uv"}))
+  addChoice(
+      *app, "--map", options.placement,
+      {{"synthesized", bi_scale::Placement::Synthesized}, {"uv", bi_scale::Placement::OwnUvs}},
+      "synthesized: texture synthesis over the surface; uv: the mesh's own UVs repeat "
+      "the patch")
       ->option_text("KIND")
-      ->capture_default_str()
       ->group("Placement");
   app->add_option("--tiles", arguments->tiles,
                   "With --map uv: how often the patch repeats along u and v, as in 8x4")
@@ -267,11 +262,12 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("OUT.png")
       ->group("Atlas");
   arguments->transfer.addTo(*app);
-  app->add_option("--encoding", arguments->encoding,
-                  "Of the matrices: snorm8 (a byte, and a scale for each matrix), float16, float32")
-      ->check(CLI::IsMember({"snorm8", "float16", "float32"}))
+  addChoice(*app, "--encoding", options.matrixEncoding,
+            {{"snorm8", encode::Encoding::Snorm8},
+             {"float16", encode::Encoding::Float16},
+             {"float32", encode::Encoding::Float32}},
+            "Of the matrices: snorm8 (a byte, and a scale for each matrix), float16, float32")
       ->option_text("KIND")
-      ->capture_default_str()
       ->group("Output");
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return run(*arguments, console); }};

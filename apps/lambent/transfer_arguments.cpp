@@ -2,16 +2,19 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/lambent/arguments.h"
-
 namespace lambent::tool {
 
+Choices<transport::TransferKind> transferKinds() {
+  using Kind = transport::TransferKind;
+  return {{"unshadowed", Kind::Unshadowed},
+          {"shadowed", Kind::Shadowed},
+          {"interreflected", Kind::Interreflected}};
+}
+
 void TransferArguments::addTo(CLI::App& app) {
-  app.add_option("--transfer", transfer,
-                 "unshadowed, shadowed, or interreflected (shadows and bounces)")
-      ->check(CLI::IsMember({"unshadowed", "shadowed", "interreflected"}))
+  addChoice(app, "--transfer", options.kind, transferKinds(),
+            "unshadowed, shadowed, or interreflected (shadows and bounces)")
       ->option_text("KIND")
-      ->capture_default_str()
       ->group("Transfer");
   app.add_flag("--keep-shadowed", options.keepShadowed,
                "Keep what is shadowed alone beside what is interreflected, so that 'render "
@@ -49,18 +52,15 @@ void TransferArguments::addTo(CLI::App& app) {
 }
 
 Status TransferArguments::check() const {
-  if (options.keepShadowed && transfer != "interreflected")
+  if (options.keepShadowed && options.kind != transport::TransferKind::Interreflected)
     return badUsage(
         "--keep-shadowed keeps shadowed transfer beside interreflected: with --transfer " +
-        transfer + " there is nothing to keep it beside");
+        wordOf(options.kind, transferKinds()) + " there is nothing to keep it beside");
   return Status::ok();
 }
 
 transport::BakeOptions TransferArguments::chosen(const Console& console) const {
   transport::BakeOptions chosen = options;
-  chosen.kind = transfer == "unshadowed" ? transport::TransferKind::Unshadowed
-                : transfer == "shadowed" ? transport::TransferKind::Shadowed
-                                         : transport::TransferKind::Interreflected;
   chosen.threads = console.options().threads;
   return chosen;
 }
