@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
@@ -135,8 +136,8 @@ class AtlasMesh {
 
 }  // namespace
 
-Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Findings& findings,
-                        const Progress& progress) {
+Result<WithFindings<Atlas>> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options,
+                                      const Progress& progress) {
   if (options.size < 1 || options.size > 16384)
     return report::badUsage("an atlas must have 1 to 16384 texels a side");
   if (options.gutter < 1 || options.gutter > 256)
@@ -145,15 +146,18 @@ Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Fi
   const std::string name = mesh.name.empty() ? "the mesh" : "mesh \"" + mesh.name + "\"";
   if (!(surface.area > 0.0))
     return report::badInput(name + " has no triangle of any area, and so no surface to lay out");
+  Findings findings;
   if (surface.nonManifoldEdges > 0)
     findings.push_back({Severity::Note, "non-manifold-edges",
                         name + ": more than two triangles meet at " +
                             std::to_string(surface.nonManifoldEdges) +
                             " edges, or two are wound against each other; charts end there",
                         surface.nonManifoldEdges});
-  if (options.ownUvs)
-    if (std::optional<Atlas> own = atlasOfOwnUvs(mesh, surface, options, findings))
-      return std::move(*own);
+  if (options.ownUvs) {
+    auto own = atlasOfOwnUvs(mesh, surface, options);
+    findings.insert(findings.end(), own.findings.begin(), own.findings.end());
+    if (own.value) return WithFindings<Atlas>{std::move(*own.value), std::move(findings)};
+  }
 
   std::vector<Chart> charts;
   Result<std::vector<LaidOut>> laidOut =
@@ -206,7 +210,7 @@ Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Fi
     const Vec2 uv = atlas.mesh.uvs[atlas.mesh.triangles[corner / 3][corner % 3]];
     for (int k = 0; k < 3; ++k) out.setCorner(t, k, std::uint64_t(0xffffffffu) << 32 | corner, uv);
   }
-  return atlas;
+  return WithFindings<Atlas>{std::move(atlas), std::move(findings)};
 }
 
 }  // namespace lambent::atlas

@@ -38,8 +38,8 @@ struct Atlas {
 /// everywhere, but for stretch, and no texel of a size×size map is touched by two charts.
 /// BadInput if no triangle has area; BadUsage for options out of range, or if a map of that size
 /// has no room for so many charts. The same at any number of threads.
-Result<Atlas> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options, Findings& findings,
-                        const Progress& progress);
+Result<WithFindings<Atlas>> makeAtlas(const scene::Mesh& mesh, const AtlasOptions& options,
+                                      const Progress& progress);
 
 inline constexpr std::uint32_t kNoChart = 0xffffffffu;
 

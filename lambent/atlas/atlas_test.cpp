@@ -189,10 +189,9 @@ std::vector<Case> cases() {
 
 Atlas automatic(const scene::Mesh& mesh, AtlasOptions options) {
   options.ownUvs = false;
-  Findings findings;
-  Result<Atlas> atlas = makeAtlas(mesh, options, findings, {});
-  if (!atlas) ADD_FAILURE() << atlas.error().message;
-  return atlas ? std::move(*atlas) : Atlas{};
+  auto made = makeAtlas(mesh, options, {});
+  if (!made) ADD_FAILURE() << made.error().message;
+  return made ? std::move(made->value) : Atlas{};
 }
 
 class AtlasOf : public testing::TestWithParam<std::size_t> {
@@ -352,37 +351,35 @@ TEST(Atlas, UsedAreaIsWhatTexelsSee) {
 TEST(Atlas, KeepsSoundUvsByteForByte) {
   for (const scene::Mesh& mesh :
        {scene::gridPlane(1, 1, 3, 3), scene::uvSphere(1, 16, 8), scene::box(Vec3(1, 1, 1), 2)}) {
-    Findings findings;
-    const Result<Atlas> atlas = makeAtlas(mesh, {.size = 256}, findings, {});
-    ASSERT_TRUE(atlas);
-    EXPECT_TRUE(atlas->ownUvs);
-    EXPECT_EQ(atlas->mesh.uvs, mesh.uvs);
-    EXPECT_EQ(atlas->mesh.triangles, mesh.triangles);
-    EXPECT_EQ(atlas->mesh.positions, mesh.positions);
+    const auto made = makeAtlas(mesh, {.size = 256}, {});
+    ASSERT_TRUE(made);
+    const auto& [atlas, findings] = *made;
+    EXPECT_TRUE(atlas.ownUvs);
+    EXPECT_EQ(atlas.mesh.uvs, mesh.uvs);
+    EXPECT_EQ(atlas.mesh.triangles, mesh.triangles);
+    EXPECT_EQ(atlas.mesh.positions, mesh.positions);
     EXPECT_TRUE(findings.empty()) << findings.front().message;
-    for (const std::uint32_t chart : atlas->chartOfTriangle) EXPECT_LT(chart, atlas->charts);
+    for (const std::uint32_t chart : atlas.chartOfTriangle) EXPECT_LT(chart, atlas.charts);
   }
 }
 
 TEST(Atlas, OwnUvsOfAPlaneHaveItsStretch) {
-  Findings findings;
   // 1 m by 4 m on a square: singular values 1 and 4 where the mean scale is 2.
-  const Result<Atlas> atlas =
-      makeAtlas(scene::gridPlane(1.0f, 4.0f, 2, 2), {.size = 64}, findings, {});
-  ASSERT_TRUE(atlas);
-  EXPECT_EQ(atlas->charts, 1u);
-  EXPECT_NEAR(atlas->stretch, std::sqrt(0.5 * (1.0 + 16.0)) / 2.0, 1e-5);
-  EXPECT_NEAR(atlas->usedArea, 1.0, 1e-6);
+  const auto made = makeAtlas(scene::gridPlane(1.0f, 4.0f, 2, 2), {.size = 64}, {});
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->value.charts, 1u);
+  EXPECT_NEAR(made->value.stretch, std::sqrt(0.5 * (1.0 + 16.0)) / 2.0, 1e-5);
+  EXPECT_NEAR(made->value.usedArea, 1.0, 1e-6);
 }
 
 void expectRefused(const scene::Mesh& mesh, const std::string& code) {
-  Findings findings;
-  const Result<Atlas> atlas = makeAtlas(mesh, {.size = 128}, findings, {});
-  ASSERT_TRUE(atlas) << atlas.error().message;
-  EXPECT_FALSE(atlas->ownUvs);
+  const auto made = makeAtlas(mesh, {.size = 128}, {});
+  ASSERT_TRUE(made) << made.error().message;
+  const auto& [atlas, findings] = *made;
+  EXPECT_FALSE(atlas.ownUvs);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].code, code);
-  EXPECT_TRUE(scene::checkUvs(atlas->mesh, 128, 128));
+  EXPECT_TRUE(scene::checkUvs(atlas.mesh, 128, 128));
 }
 
 TEST(Atlas, SaysWhyOwnUvsWereNotTaken) {
@@ -410,27 +407,27 @@ TEST(Atlas, NotesNarrowGuttersOfUvsThatItTakes) {
                           scene::translated(scene::gridPlane(1, 1, 2, 2), Vec3(0, 1, 0))};
   for (Vec2& uv : twice[0].uvs) uv.x() = 0.25f * uv.x();
   for (Vec2& uv : twice[1].uvs) uv.x() = 0.25f + 1.0f / 128 + 0.25f * uv.x();
-  Findings findings;
-  const Result<Atlas> atlas = makeAtlas(scene::merge(twice), {.size = 128}, findings, {});
-  ASSERT_TRUE(atlas);
-  EXPECT_TRUE(atlas->ownUvs);
+  const auto made = makeAtlas(scene::merge(twice), {.size = 128}, {});
+  ASSERT_TRUE(made);
+  const auto& [atlas, findings] = *made;
+  EXPECT_TRUE(atlas.ownUvs);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].code, "uvs-narrow-gutter");
 }
 
 TEST(Atlas, TellsOfNonManifoldEdges) {
-  Findings findings;
-  ASSERT_TRUE(makeAtlas(fin(), {.size = 128, .ownUvs = false}, findings, {}));
+  const auto made = makeAtlas(fin(), {.size = 128, .ownUvs = false}, {});
+  ASSERT_TRUE(made);
+  const Findings& findings = made->findings;
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].code, "non-manifold-edges");
   EXPECT_EQ(findings[0].count, 1u);
 }
 
 TEST(Atlas, RefusesWhatMakesNoSense) {
-  Findings findings;
   scene::Mesh mesh = scene::icosphere(1.0f, 2);
   const auto kindOf = [&](const scene::Mesh& m, const AtlasOptions& options) {
-    const Result<Atlas> atlas = makeAtlas(m, options, findings, {});
+    const auto atlas = makeAtlas(m, options, {});
     EXPECT_FALSE(atlas);
     return atlas ? ErrorKind::Failed : atlas.error().kind;
   };
@@ -439,8 +436,7 @@ TEST(Atlas, RefusesWhatMakesNoSense) {
   EXPECT_EQ(kindOf(mesh, {.gutter = 0}), ErrorKind::BadUsage);
   EXPECT_EQ(kindOf(mesh, {.size = 4}), ErrorKind::BadUsage);
   EXPECT_EQ(kindOf(scene::Mesh{}, {}), ErrorKind::BadInput);
-  const Result<Atlas> cancelled =
-      makeAtlas(mesh, {}, findings, [](const ProgressUpdate&) { return false; });
+  const auto cancelled = makeAtlas(mesh, {}, [](const ProgressUpdate&) { return false; });
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::Cancelled);
 }

@@ -57,20 +57,24 @@ std::uint32_t labelCharts(const scene::Mesh& mesh, const WeldedSurface& surface,
 
 }  // namespace
 
-std::optional<Atlas> atlasOfOwnUvs(const scene::Mesh& mesh, const WeldedSurface& surface,
-                                   const AtlasOptions& options, Findings& findings) {
+WithFindings<std::optional<Atlas>> atlasOfOwnUvs(const scene::Mesh& mesh,
+                                                 const WeldedSurface& surface,
+                                                 const AtlasOptions& options) {
+  WithFindings<std::optional<Atlas>> result;
   const auto refuse = [&](std::string code, std::string why, std::uint64_t count) {
-    findings.push_back({Severity::Note, std::move(code),
-                        why + "; it is laid out anew, which leaves no place for textures that "
-                              "were painted for the old layout",
-                        count});
-    return std::nullopt;
+    result.findings.push_back({Severity::Note, std::move(code),
+                               why +
+                                   "; it is laid out anew, which leaves no place for textures that "
+                                   "were painted for the old layout",
+                               count});
+    return result;
   };
   const std::string name = mesh.name.empty() ? "the mesh" : "mesh \"" + mesh.name + "\"";
   if (mesh.uvs.empty() || mesh.uvs.size() != mesh.positions.size()) {
-    findings.push_back({Severity::Note, "no-uvs",
-                        name + " has no texture coordinates; it is laid out automatically", 0});
-    return std::nullopt;
+    result.findings.push_back({Severity::Note, "no-uvs",
+                               name + " has no texture coordinates; it is laid out automatically",
+                               0});
+    return result;
   }
   if (const Status sound = scene::checkUvs(mesh, options.size, options.size); !sound)
     return refuse("uvs-unsound", sound.error().message, 0);
@@ -118,11 +122,12 @@ std::optional<Atlas> atlasOfOwnUvs(const scene::Mesh& mesh, const WeldedSurface&
                       std::to_string(options.size) + "×" + std::to_string(options.size) + " map",
                   gutters.sharedTexels);
   if (gutters.narrowTexels > 0)
-    findings.push_back({Severity::Note, "uvs-narrow-gutter",
-                        name + ": charts of its texture coordinates lie within two texels of each "
-                               "other, so that bilinear look-ups at their borders mix them; they "
-                               "are used as they are",
-                        gutters.narrowTexels});
+    result.findings.push_back(
+        {Severity::Note, "uvs-narrow-gutter",
+         name + ": charts of its texture coordinates lie within two texels of each "
+                "other, so that bilinear look-ups at their borders mix them; they "
+                "are used as they are",
+         gutters.narrowTexels});
   StretchSum whole;
   for (const StretchSum& sum : sums) {
     whole.squared += sum.squared, whole.area += sum.area, whole.flat += sum.flat;
@@ -130,7 +135,8 @@ std::optional<Atlas> atlasOfOwnUvs(const scene::Mesh& mesh, const WeldedSurface&
   }
   atlas.stretch = whole.stretch();
   atlas.usedArea = whole.flat;
-  return atlas;
+  result.value = std::move(atlas);
+  return result;
 }
 
 }  // namespace lambent::atlas

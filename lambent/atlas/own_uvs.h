@@ -14,7 +14,8 @@ namespace lambent::atlas {
 /// - uvs-collapsed: triangles with area on the surface have none in the square.
 /// - uvs-without-gutter: two charts share a texel, which can only tell of one of them.
 /// UVs that are taken although bilinear look-ups would mix charts get a note, uvs-narrow-gutter.
-std::optional<Atlas> atlasOfOwnUvs(const scene::Mesh& mesh, const WeldedSurface& surface,
-                                   const AtlasOptions& options, Findings& findings);
+WithFindings<std::optional<Atlas>> atlasOfOwnUvs(const scene::Mesh& mesh,
+                                                 const WeldedSurface& surface,
+                                                 const AtlasOptions& options);
 
 }  // namespace lambent::atlas

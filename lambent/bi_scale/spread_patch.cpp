@@ -144,9 +144,10 @@ struct Spreader {
   Status byOwnUvs(std::uint32_t index, SpreadReport& report, Placed& placed,
                   std::vector<Vec3>& tangents) {
     const scene::Mesh& mesh = scene.meshes[index];
-    auto frames = uvTangents(mesh, findings);
+    auto frames = uvTangents(mesh);
     if (!frames) return named(frames.error(), mesh, index);
-    tangents = std::move(*frames);
+    findings.insert(findings.end(), frames->findings.begin(), frames->findings.end());
+    tangents = std::move(frames->value);
     const Vec2 metres = metresPerUv(mesh);
     const float aspect = rtt.size.y() / rtt.size.x();
     placed.tiles = options.tiles;
@@ -172,17 +173,21 @@ struct Spreader {
   Status bySynthesis(std::uint32_t index, SpreadReport& report, Placed& placed,
                      std::vector<Vec3>& tangents) {
     announce(progress, "charts");
-    auto atlas = atlas::makeAtlas(scene.meshes[index], options.atlas, findings, progress);
-    if (!atlas) return named(atlas.error(), scene.meshes[index], index);
+    auto laidOut = atlas::makeAtlas(scene.meshes[index], options.atlas, progress);
+    if (!laidOut) return named(laidOut.error(), scene.meshes[index], index);
+    findings.insert(findings.end(), laidOut->findings.begin(), laidOut->findings.end());
+    atlas::Atlas* const atlas = &laidOut->value;
     const int material = scene.meshes[index].material;
     scene.meshes[index] = atlas->mesh;
     scene.meshes[index].material = material;
     const scene::Mesh& mesh = scene.meshes[index];
 
-    auto field = staged(progress, "tangent field", [&] {
-      return synthesis::tangentField(mesh, {.direction = options.direction}, findings);
+    auto combed = staged(progress, "tangent field", [&] {
+      return synthesis::tangentField(mesh, {.direction = options.direction});
     });
-    if (!field) return named(field.error(), mesh, index);
+    if (!combed) return named(combed.error(), mesh, index);
+    findings.insert(findings.end(), combed->findings.begin(), combed->findings.end());
+    synthesis::TangentField* const field = &combed->value;
 
     const Vec2 patch = placed.scale * rtt.size;
     const double positions = report.patches * rtt.width * rtt.height;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -33,7 +34,7 @@ std::optional<Gradient> gradientOf(const scene::Mesh& mesh, const scene::Triangl
 
 }  // namespace
 
-Result<std::vector<Vec3>> uvTangents(const scene::Mesh& mesh, Findings& findings) {
+Result<WithFindings<std::vector<Vec3>>> uvTangents(const scene::Mesh& mesh) {
   if (mesh.uvs.size() != mesh.positions.size())
     return report::badInput("mesh \"" + mesh.name +
                             "\" has no UVs to place the patch by: leave the placement to the "
@@ -55,6 +56,7 @@ Result<std::vector<Vec3>> uvTangents(const scene::Mesh& mesh, Findings& findings
     tangents[v] =
         t.squaredNorm() > 1e-30f ? Vec3(t.normalized()) : Vec3(math::worldFromTangent(n).col(0));
   }
+  Findings findings;
   if (mirrored > 0)
     findings.push_back({Severity::Warning, "mirrored-uvs",
                         std::to_string(mirrored) + " triangles of mesh \"" + mesh.name +
@@ -67,7 +69,7 @@ Result<std::vector<Vec3>> uvTangents(const scene::Mesh& mesh, Findings& findings
                         std::to_string(degenerate) + " triangles of mesh \"" + mesh.name +
                             "\" cover no area of the UV square",
                         degenerate});
-  return tangents;
+  return WithFindings<std::vector<Vec3>>{std::move(tangents), std::move(findings)};
 }
 
 Vec2 metresPerUv(const scene::Mesh& mesh) {

@@ -14,7 +14,7 @@ namespace lambent::bi_scale {
 /// not mirrored). BadInput if there are no UVs; a finding counts triangles whose UVs are mirrored
 /// ("mirrored-uvs": the patch's relief would be turned inside out there) or cover no area
 /// ("degenerate-uvs").
-Result<std::vector<Vec3>> uvTangents(const scene::Mesh& mesh, Findings& findings);
+Result<WithFindings<std::vector<Vec3>>> uvTangents(const scene::Mesh& mesh);
 
 /// Metres of the surface that a unit of UV covers, along u and along v, in the mean over the area.
 Vec2 metresPerUv(const scene::Mesh& mesh);

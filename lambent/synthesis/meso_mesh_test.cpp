@@ -15,10 +15,9 @@ namespace lambent::synthesis {
 namespace {
 
 MesoMesh mesoOf(const scene::Mesh& mesh, MesoMeshOptions options) {
-  Findings findings;
-  const Result<TangentField> field = tangentField(mesh, {}, findings);
+  const auto field = tangentField(mesh, {});
   EXPECT_TRUE(field);
-  Result<MesoMesh> meso = mesoMesh(mesh, *field, options, {});
+  Result<MesoMesh> meso = mesoMesh(mesh, field->value, options, {});
   EXPECT_TRUE(meso) << meso.error().message;
   return std::move(*meso);
 }

@@ -18,11 +18,9 @@ namespace lambent::synthesis {
 namespace {
 
 atlas::Atlas atlasOf(const scene::Mesh& mesh, int size, bool ownUvs) {
-  Findings findings;
-  Result<atlas::Atlas> atlas =
-      atlas::makeAtlas(mesh, {.size = size, .ownUvs = ownUvs}, findings, {});
-  EXPECT_TRUE(atlas);
-  return std::move(*atlas);
+  auto made = atlas::makeAtlas(mesh, {.size = size, .ownUvs = ownUvs}, {});
+  EXPECT_TRUE(made);
+  return std::move(made->value);
 }
 
 void add(MesoMesh& mesh, const Vec3& position, const Vec3& normal, const Vec3& tangent) {

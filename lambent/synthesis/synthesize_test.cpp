@@ -16,10 +16,9 @@ namespace lambent::synthesis {
 namespace {
 
 MesoMesh mesoOf(const scene::Mesh& mesh, std::uint32_t vertices) {
-  Findings findings;
-  const Result<TangentField> field = tangentField(mesh, {}, findings);
+  const auto field = tangentField(mesh, {});
   EXPECT_TRUE(field);
-  Result<MesoMesh> meso = mesoMesh(mesh, *field, {.vertices = vertices}, {});
+  Result<MesoMesh> meso = mesoMesh(mesh, field->value, {.vertices = vertices}, {});
   EXPECT_TRUE(meso);
   return std::move(*meso);
 }

@@ -236,7 +236,8 @@ std::vector<TangentField::Singularity> singularities(const Manifold& m, const Ta
   return found;
 }
 
-void tellWhatWasCut(const Manifold& m, Findings& findings) {
+Findings whatWasCut(const Manifold& m) {
+  Findings findings;
   const auto tell = [&](Severity severity, const char* code, std::size_t count,
                         const std::string& message) {
     if (count > 0) findings.push_back({severity, code, std::to_string(count) + message, count});
@@ -249,12 +250,13 @@ void tellWhatWasCut(const Manifold& m, Findings& findings) {
        "and texture will not run on across them");
   tell(Severity::Note, "degenerate-triangles", m.degenerateTriangles,
        " triangles have two corners at one place and are left out");
+  return findings;
 }
 
 }  // namespace
 
-Result<TangentField> tangentField(const scene::Mesh& mesh, const TangentFieldOptions& options,
-                                  Findings& findings) {
+Result<WithFindings<TangentField>> tangentField(const scene::Mesh& mesh,
+                                                const TangentFieldOptions& options) {
   if (!(options.steering >= 0.0f && options.steering <= 1.0f)) {
     return report::badUsage("steering must lie within 0 and 1");
   }
@@ -266,7 +268,6 @@ Result<TangentField> tangentField(const scene::Mesh& mesh, const TangentFieldOpt
     return report::badInput("the mesh " + mesh.name +
                             " has no triangle, so no surface to lay tangents on");
   }
-  tellWhatWasCut(m, findings);
   const TangentPlanes p = tangentPlanes(mesh, m);
   Result<Field> solved =
       options.direction && options.steering > 0.0f
@@ -300,7 +301,7 @@ Result<TangentField> tangentField(const scene::Mesh& mesh, const TangentFieldOpt
     field.tangents[v] = turnedInto(
         tangent.cast<float>(), normal.dot(normals[v]) < 0.0f ? Vec3(-normal) : normal, normals[v]);
   }
-  return field;
+  return WithFindings<TangentField>{std::move(field), whatWasCut(m)};
 }
 
 }  // namespace lambent::synthesis

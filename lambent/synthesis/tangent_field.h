@@ -32,9 +32,9 @@ struct TangentField {
 /// Vertices of equal position share one tangent plane (the mean normal) and one tangent, which is
 /// then turned into each vertex's own plane: borders of UVs leave no seam. Any mesh will do: open,
 /// of several components, of any genus. It is cut along edges of three triangles or more and
-/// between triangles wound against each other, which `findings` tell. BadInput for a mesh without
+/// between triangles wound against each other, which findings tell. BadInput for a mesh without
 /// triangles.
-Result<TangentField> tangentField(const scene::Mesh& mesh, const TangentFieldOptions& options,
-                                  Findings& findings);
+Result<WithFindings<TangentField>> tangentField(const scene::Mesh& mesh,
+                                                const TangentFieldOptions& options);
 
 }  // namespace lambent::synthesis

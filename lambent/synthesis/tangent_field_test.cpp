@@ -14,15 +14,15 @@ namespace lambent::synthesis {
 namespace {
 
 TangentField fieldOf(const scene::Mesh& mesh, const TangentFieldOptions& options = {}) {
-  Findings findings;
-  Result<TangentField> field = tangentField(mesh, options, findings);
-  EXPECT_TRUE(field) << field.error().message;
-  EXPECT_EQ(field->tangents.size(), mesh.positions.size());
+  auto made = tangentField(mesh, options);
+  EXPECT_TRUE(made) << made.error().message;
+  TangentField& field = made->value;
+  EXPECT_EQ(field.tangents.size(), mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    EXPECT_NEAR(field->tangents[v].norm(), 1.0f, 1e-5f);
-    EXPECT_NEAR(field->tangents[v].dot(mesh.normals[v]), 0.0f, 1e-4f);
+    EXPECT_NEAR(field.tangents[v].norm(), 1.0f, 1e-5f);
+    EXPECT_NEAR(field.tangents[v].dot(mesh.normals[v]), 0.0f, 1e-4f);
   }
-  return std::move(*field);
+  return std::move(field);
 }
 
 int indexSum(const TangentField& field) {
@@ -172,10 +172,10 @@ TEST(TangentField, FinsMirroredTrianglesAndSliversAreSurvivedAndTold) {
   mesh.triangles.push_back({1, 1, 2});
   mesh.positions.push_back(Vec3(9, 9, 9));  // no triangle's
   scene::computeNormals(mesh);
-  Findings findings;
-  const Result<TangentField> field = tangentField(mesh, {}, findings);
-  ASSERT_TRUE(field);
-  for (const Vec3& t : field->tangents) EXPECT_NEAR(t.norm(), 1.0f, 1e-5f);
+  const auto made = tangentField(mesh, {});
+  ASSERT_TRUE(made);
+  const auto& [field, findings] = *made;
+  for (const Vec3& t : field.tangents) EXPECT_NEAR(t.norm(), 1.0f, 1e-5f);
   ASSERT_EQ(findings.size(), 3u);
   EXPECT_EQ(findings[0].code, "non-manifold-edges");
   EXPECT_EQ(findings[0].count, 1u);
@@ -219,16 +219,13 @@ TEST(TangentField, LargeMeshesAreSolvedAsSmallOnesAre) {
 }
 
 TEST(TangentField, WrongUsageIsToldApart) {
-  Findings findings;
-  EXPECT_EQ(tangentField(scene::Mesh(), {}, findings).error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(tangentField(scene::Mesh(), {}).error().kind, ErrorKind::BadInput);
   TangentFieldOptions options;
   options.direction = Vec3(0, 0, 0);
-  EXPECT_EQ(tangentField(scene::icosphere(1, 1), options, findings).error().kind,
-            ErrorKind::BadUsage);
+  EXPECT_EQ(tangentField(scene::icosphere(1, 1), options).error().kind, ErrorKind::BadUsage);
   options.direction = Vec3(0, 1, 0);
   options.steering = 2.0f;
-  EXPECT_EQ(tangentField(scene::icosphere(1, 1), options, findings).error().kind,
-            ErrorKind::BadUsage);
+  EXPECT_EQ(tangentField(scene::icosphere(1, 1), options).error().kind, ErrorKind::BadUsage);
 }
 
 }  // namespace
