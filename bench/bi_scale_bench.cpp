@@ -68,11 +68,10 @@ meso::RadianceTransferTexture benchRtt(const meso::Patch& patch, meso::RttMethod
   const std::string name =
       fmt::format("{} {}x{}x{}x{}, {}", patch.name, options.width, options.height, options.views,
                   options.views, method == meso::RttMethod::Gather ? "gathered" : "by eq. (5)");
-  Findings findings;
   StageTimes times;
   meso::RttCost cost;
   const double start = now();
-  auto rtt = valueOf(meso::buildRtt(patch, options, times.progress(), findings, &cost));
+  auto rtt = valueOf(meso::buildRtt(patch, options, times.progress(), &cost)).value;
   const double seconds = now() - start;
   note(name, seconds, "s", method == meso::RttMethod::Gather ? "<= 120" : "");
   note(name + ": rays", double(cost.viewRays + cost.lightRays) * 1e-6, "million");

@@ -184,7 +184,7 @@ void benchKinds() {
   rttOptions.supersample = 1;
   Findings findings;
   const encode::EncodedRtt rtt = encode::encode(
-      valueOf(meso::buildRtt(meso::weave(), rttOptions, {}, findings)), encode::Encoding::Snorm8);
+      valueOf(meso::buildRtt(meso::weave(), rttOptions, {})).value, encode::Encoding::Snorm8);
   bi_scale::SpreadOptions spread;
   spread.placement = bi_scale::Placement::OwnUvs;
   spread.transfer.directions = 64;

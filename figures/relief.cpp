@@ -15,9 +15,8 @@ namespace lambent::figures {
 
 BuiltRtt build(const meso::Patch& patch, const meso::RttOptions& options) {
   BuiltRtt built;
-  Findings findings;
   const auto start = std::chrono::steady_clock::now();
-  built.rtt = orDie(meso::buildRtt(patch, options, {}, findings, &built.cost));
+  built.rtt = orDie(meso::buildRtt(patch, options, {}, &built.cost)).value;
   built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return built;
 }

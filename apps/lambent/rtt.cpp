@@ -107,11 +107,10 @@ Result<meso::Patch> makePatch(const Arguments& arguments, const std::optional<Ve
   if (arguments.depth) options.depth = float(*arguments.depth);
   if (arguments.albedo) options.albedo = *arguments.albedo;
   if (arguments.backing) options.backing = *arguments.backing;
-  Findings findings;
-  auto patch =
-      console.stage("load", [&] { return meso::loadPatch(arguments.patch, options, findings); });
-  console.report(findings);
-  return patch;
+  auto loaded = console.stage("load", [&] { return meso::loadPatch(arguments.patch, options); });
+  if (!loaded) return loaded.error();
+  console.report(loaded->findings);
+  return std::move(loaded->value);
 }
 
 double rootMeanSquare(std::span<const float> values) {
@@ -144,9 +143,8 @@ Status runRtt(Arguments arguments, Console& console) {
   options.polarLights = lights.width, options.azimuthLights = lights.height;
   options.threads = console.options().threads;
 
-  Findings findings;
   meso::RttCost cost;
-  Result<meso::RadianceTransferTexture> rtt = failed("nothing was built");
+  Result<WithFindings<meso::RadianceTransferTexture>> built = failed("nothing was built");
   const bool measured = !isGenerator(arguments.patch) && isBtf(arguments.patch);
   if (measured) {
     if (!arguments.patchPath.empty())
@@ -158,7 +156,7 @@ Status runRtt(Arguments arguments, Console& console) {
     if (size) acquired.size = *size;
     acquired.white = float(arguments.white);
     acquired.threads = options.threads;
-    rtt = meso::acquireRtt(arguments.patch, acquired, console.progress(), findings);
+    built = meso::acquireRtt(arguments.patch, acquired, console.progress());
   } else {
     auto patch = makePatch(arguments, size, console);
     if (!patch) return patch.error();
@@ -172,21 +170,22 @@ Status runRtt(Arguments arguments, Console& console) {
           "write patch", [&] { return meso::savePatch(*patch, arguments.patchPath); }));
       if (!saved) return saved;
     }
-    rtt = meso::buildRtt(*patch, options, console.progress(), findings, &cost);
+    built = meso::buildRtt(*patch, options, console.progress(), &cost);
   }
-  console.report(findings);
-  if (!rtt) return rtt.error();
+  if (!built) return built.error();
+  console.report(built->findings);
+  const meso::RadianceTransferTexture& rtt = built->value;
 
   const encode::EncodedRtt encoded =
-      console.stage("encode", [&] { return encode::encode(*rtt, arguments.encoding); });
-  const double error = encodingError(*rtt, encoded);
-  const Rgb albedo = meso::effectiveAlbedo(*rtt);
+      console.stage("encode", [&] { return encode::encode(rtt, arguments.encoding); });
+  const double error = encodingError(rtt, encoded);
+  const Rgb albedo = meso::effectiveAlbedo(rtt);
   Status status =
       written(console.stage("write", [&] { return asset::writeRtt(encoded, arguments.output); }));
   if (!status) return status;
   if (!arguments.previewPath.empty()) {
     status = written(console.stage("preview", [&] {
-      const image::Image picture = meso::preview(*rtt);
+      const image::Image picture = meso::preview(rtt);
       if (extensionOf(arguments.previewPath) == ".exr")
         return image::write(picture, arguments.previewPath);
       // The lights would show a white square facing them as 1: a little brighter for the eye.
@@ -202,12 +201,12 @@ Status runRtt(Arguments arguments, Console& console) {
   console.finish(
       {{"output", arguments.output.string()},
        {"bytes", bytes},
-       {"name", rtt->name},
-       {"positions", {rtt->width, rtt->height}},
-       {"views", rtt->views},
-       {"bands", rtt->bands},
-       {"size", {rtt->size.x(), rtt->size.y()}},
-       {"depth", rtt->depth},
+       {"name", rtt.name},
+       {"positions", {rtt.width, rtt.height}},
+       {"views", rtt.views},
+       {"bands", rtt.bands},
+       {"size", {rtt.size.x(), rtt.size.y()}},
+       {"depth", rtt.depth},
        {"method", measured ? "measured" : wordOf(options.method, methods())},
        {"bounces", measured ? 0 : options.bounces},
        {"encoding", asset::nameOf(arguments.encoding)},
@@ -215,17 +214,16 @@ Status runRtt(Arguments arguments, Console& console) {
        {"effective_albedo", asJson(albedo)},
        {"rays", rays},
        {"seconds", seconds}},
-      fmt::format("{}: {}\n"
-                  "  {}×{} positions, {}×{} views, {} bands; {:.4g} × {:.4g} m, {:.3g} m deep\n"
-                  "  reflects {:.3f} {:.3f} {:.3f} of even light (R, G, B)\n"
-                  "  encoding {}: {:.2g} % root mean square error\n"
-                  "{}{} in all\n{}",
-                  arguments.output.string(), formatBytes(double(bytes)), rtt->width, rtt->height,
-                  rtt->views, rtt->views, rtt->bands, double(rtt->size.x()), double(rtt->size.y()),
-                  double(rtt->depth), albedo[0], albedo[1], albedo[2],
-                  asset::nameOf(arguments.encoding), 100.0 * error,
-                  rays > 0 ? formatCount(rays) + " rays, " : std::string(), formatSeconds(seconds),
-                  times));
+      fmt::format(
+          "{}: {}\n"
+          "  {}×{} positions, {}×{} views, {} bands; {:.4g} × {:.4g} m, {:.3g} m deep\n"
+          "  reflects {:.3f} {:.3f} {:.3f} of even light (R, G, B)\n"
+          "  encoding {}: {:.2g} % root mean square error\n"
+          "{}{} in all\n{}",
+          arguments.output.string(), formatBytes(double(bytes)), rtt.width, rtt.height, rtt.views,
+          rtt.views, rtt.bands, double(rtt.size.x()), double(rtt.size.y()), double(rtt.depth),
+          albedo[0], albedo[1], albedo[2], asset::nameOf(arguments.encoding), 100.0 * error,
+          rays > 0 ? formatCount(rays) + " rays, " : std::string(), formatSeconds(seconds), times));
   return Status::ok();
 }
 

@@ -192,9 +192,9 @@ void warnOfSeam(const image::Image& picture, const std::filesystem::path& file,
 
 }  // namespace
 
-Result<RadianceTransferTexture> acquireRtt(const std::filesystem::path& folderOrTable,
-                                           const AcquiredOptions& options, const Progress& progress,
-                                           Findings& findings) {
+Result<WithFindings<RadianceTransferTexture>> acquireRtt(const std::filesystem::path& folderOrTable,
+                                                         const AcquiredOptions& options,
+                                                         const Progress& progress) {
   if (Status sane = check(options); !sane) return sane.error();
   const Result<std::filesystem::path> table = findBtfTable(folderOrTable);
   if (!table) return table.error();
@@ -203,7 +203,9 @@ Result<RadianceTransferTexture> acquireRtt(const std::filesystem::path& folderOr
   const std::vector<BtfSample>& samples = *read;
   if (Status sound = checkSamples(samples, *table); !sound) return sound.error();
 
-  RadianceTransferTexture rtt;
+  WithFindings<RadianceTransferTexture> result;
+  RadianceTransferTexture& rtt = result.value;
+  Findings& findings = result.findings;
   rtt.name = std::filesystem::absolute(*table).parent_path().filename().string();
   rtt.width = options.width, rtt.height = options.height;
   rtt.views = options.views, rtt.bands = options.bands;
@@ -275,7 +277,7 @@ Result<RadianceTransferTexture> acquireRtt(const std::filesystem::path& folderOr
                   b(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(3 * p + c));
       });
   if (!finished) return report::cancelled();
-  return rtt;
+  return result;
 }
 
 }  // namespace lambent::meso

@@ -55,8 +55,8 @@ struct AcquiredOptions {
 /// BadInput: tables as readBtfTable says, pictures that are missing, unreadable, of another size
 /// than the first, or not finite; fewer than 8 samples, or more than 8192; two samples of one view
 /// and light. A warning "sparse-lights" or "sparse-views" names the widest gap above 40 degrees.
-Result<RadianceTransferTexture> acquireRtt(const std::filesystem::path& folderOrTable,
-                                           const AcquiredOptions& options, const Progress& progress,
-                                           Findings& findings);
+Result<WithFindings<RadianceTransferTexture>> acquireRtt(const std::filesystem::path& folderOrTable,
+                                                         const AcquiredOptions& options,
+                                                         const Progress& progress);
 
 }  // namespace lambent::meso

@@ -87,8 +87,7 @@ class Acquired : public testing::Test {
         }
   }
   std::string refusal(const std::filesystem::path& path) {
-    Findings findings;
-    auto rtt = acquireRtt(path, {}, {}, findings);
+    auto rtt = acquireRtt(path, {}, {});
     EXPECT_FALSE(rtt);
     return rtt ? std::string() : rtt.error().message;
   }
@@ -100,16 +99,16 @@ TEST_F(Acquired, PicturesOfADiffuseSurfaceAreItsCosineLobe) {
   AcquiredOptions options;
   options.width = 4, options.height = 2, options.views = 3;
   options.polarLights = 32, options.azimuthLights = 32;
-  Findings findings;
-  auto rtt = acquireRtt(folder_, options, {}, findings);
-  ASSERT_TRUE(rtt) << rtt.error().message;
+  const auto acquired = acquireRtt(folder_, options, {});
+  ASSERT_TRUE(acquired) << acquired.error().message;
+  const RadianceTransferTexture& rtt = acquired->value;
   const sh::ZonalMoments cosine = sh::clampedCosine(5);
   for (int i = 0; i < 25; ++i) {
     const int l = sh::bandOf(i);
     const double y = i == sh::index(l, 0) ? std::sqrt((2 * l + 1) / (4 * kPi)) : 0.0;  // towards +z
     for (int v = 0; v < 9; ++v) {
       const auto at = [&](int x, int row, int c) {
-        return double(rtt->values[rtt->index(i, x, row, v % 3, v / 3) + c]);
+        return double(rtt.values[rtt.index(i, x, row, v % 3, v / 3) + c]);
       };
       EXPECT_NEAR(at(0, 1, 0), 0.2 / kPi * cosine[l] * y, 1e-3) << i;  // far left
       EXPECT_NEAR(at(3, 1, 0), 0.8 / kPi * cosine[l] * y, 1e-3) << i;  // far right
@@ -121,12 +120,12 @@ TEST_F(Acquired, PicturesOfADiffuseSurfaceAreItsCosineLobe) {
 
 TEST_F(Acquired, GapsAndSeamsAreToldOf) {
   measureDiffuse();
-  Findings findings;
   AcquiredOptions options;
   options.width = options.height = 4, options.views = 8;
-  ASSERT_TRUE(acquireRtt(folder_ / "btf.csv", options, {}, findings));
+  const auto acquired = acquireRtt(folder_ / "btf.csv", options, {});
+  ASSERT_TRUE(acquired);
   bool views = false;
-  for (const Finding& finding : findings) views = views || finding.code == "sparse-views";
+  for (const Finding& finding : acquired->findings) views = views || finding.code == "sparse-views";
   EXPECT_TRUE(views);  // measured in one half-plane only
 }
 

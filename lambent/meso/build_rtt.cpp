@@ -325,11 +325,13 @@ Vec3 viewDirection(int views, int viewX, int viewY) {
   return math::hemisphereFromSquare(Vec2((viewX + 0.5f) / views, (viewY + 0.5f) / views));
 }
 
-Result<RadianceTransferTexture> buildRtt(const Patch& patch, const RttOptions& options,
-                                         const Progress& progress, Findings& findings,
-                                         RttCost* cost) {
+Result<WithFindings<RadianceTransferTexture>> buildRtt(const Patch& patch,
+                                                       const RttOptions& options,
+                                                       const Progress& progress, RttCost* cost) {
   if (Status sane = check(options); !sane) return sane.error();
-  if (Status sound = check(patch, findings); !sound) return sound.error();
+  Result<Findings> sound = check(patch);
+  if (!sound) return sound.error();
+  Findings findings = std::move(*sound);
   // Measured on a weave (docs/reproduction.md): at 20° above a surface 0.29 of the period deep, 8
   // views a side are 18% off and 16 are 2%.
   const float relief = extentOf(patch).depth() / patch.size.minCoeff();
@@ -358,7 +360,7 @@ Result<RadianceTransferTexture> buildRtt(const Patch& patch, const RttOptions& o
   RttCost ignored;
   if (Status done = builder.run(rows, rtt, cost ? *cost : ignored, findings); !done)
     return done.error();
-  return rtt;
+  return WithFindings<RadianceTransferTexture>{std::move(rtt), std::move(findings)};
 }
 
 }  // namespace lambent::meso

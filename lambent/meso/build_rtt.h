@@ -51,9 +51,10 @@ struct RttCost {
 ///
 /// Errors: BadUsage for options out of range, BadInput as check(patch) and PeriodicScene::build
 /// say, Cancelled. `cost` may be null.
-Result<RadianceTransferTexture> buildRtt(const Patch& patch, const RttOptions& options,
-                                         const Progress& progress, Findings& findings,
-                                         RttCost* cost = nullptr);
+Result<WithFindings<RadianceTransferTexture>> buildRtt(const Patch& patch,
+                                                       const RttOptions& options,
+                                                       const Progress& progress,
+                                                       RttCost* cost = nullptr);
 
 /// The direction of a view: where the middle of its cell goes on the hemisphere.
 Vec3 viewDirection(int views, int viewX, int viewY);

@@ -161,9 +161,8 @@ TEST(BuildRtt, ShadowsFallAwayFromTheLight) {
 }
 
 TEST(BuildRtt, RefusesWhatItCannotBuild) {
-  Findings findings;
   const auto error = [&](const Patch& patch, const RttOptions& options) {
-    auto rtt = buildRtt(patch, options, {}, findings);
+    auto rtt = buildRtt(patch, options, {});
     EXPECT_FALSE(rtt);
     return rtt ? Error{} : rtt.error();
   };
@@ -197,10 +196,8 @@ TEST(BuildRtt, RefusesWhatItCannotBuild) {
 }
 
 TEST(BuildRtt, StopsWhenAsked) {
-  Findings findings;
-  auto rtt = buildRtt(
-      flatPatch(Rgb::Ones()), smallOptions(8, 4), [](const ProgressUpdate&) { return false; },
-      findings);
+  auto rtt = buildRtt(flatPatch(Rgb::Ones()), smallOptions(8, 4),
+                      [](const ProgressUpdate&) { return false; });
   ASSERT_FALSE(rtt);
   EXPECT_EQ(rtt.error().kind, ErrorKind::Cancelled);
 }
@@ -208,10 +205,10 @@ TEST(BuildRtt, StopsWhenAsked) {
 TEST(BuildRtt, SaysThatAPatchIsInsideOut) {
   Patch patch = flatPatch(Rgb::Ones());
   for (scene::Triangle& t : patch.scene.meshes[0].triangles) std::swap(t[1], t[2]);
-  Findings findings;
-  ASSERT_TRUE(buildRtt(patch, smallOptions(3, 1), {}, findings));
-  ASSERT_FALSE(findings.empty());
-  EXPECT_EQ(findings.back().code, "back-faces-seen");
+  const auto built = buildRtt(patch, smallOptions(3, 1), {});
+  ASSERT_TRUE(built);
+  ASSERT_FALSE(built->findings.empty());
+  EXPECT_EQ(built->findings.back().code, "back-faces-seen");
 }
 
 TEST(BuildRtt, TellsOfTooFewViewsOfADeepPatch) {
@@ -222,9 +219,9 @@ TEST(BuildRtt, TellsOfTooFewViewsOfADeepPatch) {
     options.bands = 1;
     options.bounces = 0;
     options.directions = 16;
-    Findings findings;
-    EXPECT_TRUE(buildRtt(patch, options, {}, findings));
-    return std::any_of(findings.begin(), findings.end(),
+    const auto built = buildRtt(patch, options, {});
+    EXPECT_TRUE(built);
+    return std::any_of(built->findings.begin(), built->findings.end(),
                        [](const Finding& finding) { return finding.code == "few-views"; });
   };
   EXPECT_TRUE(told(weave(), 8));

@@ -18,9 +18,9 @@ TEST(Generators, AllAreSoundAndTile) {
     ASSERT_TRUE(patch) << name;
     EXPECT_EQ(patch->size, Vec2(0.2f, 0.1f));
     EXPECT_EQ(patch->name, name);
-    Findings findings;
-    EXPECT_TRUE(check(*patch, findings)) << name;
-    EXPECT_TRUE(findings.empty()) << name << ": " << findings.front().message;
+    const Result<Findings> findings = check(*patch);
+    ASSERT_TRUE(findings) << name;
+    EXPECT_TRUE(findings->empty()) << name << ": " << findings->front().message;
     EXPECT_TRUE(checkTiling(*patch).empty()) << name << checkTiling(*patch).front().message;
     const Extent extent = extentOf(*patch);
     EXPECT_GT(extent.depth(), 0.002f) << name;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lambent/file/atomic_file.h"
 #include "lambent/file/extension.h"
@@ -32,11 +33,11 @@ void turn(scene::Scene& scene, const Turn& rotated) {
   }
 }
 
-Result<Patch> loadMesh(const std::filesystem::path& path, const PatchFileOptions& options,
-                       Findings& findings) {
+Result<WithFindings<Patch>> loadMesh(const std::filesystem::path& path,
+                                     const PatchFileOptions& options) {
   Result<scene_io::LoadedScene> loaded = scene_io::load(path);
   if (!loaded) return loaded.error();
-  findings.insert(findings.end(), loaded->findings.begin(), loaded->findings.end());
+  Findings findings = std::move(loaded->findings);
   Patch patch;
   patch.name = path.stem().string();
   patch.scene = std::move(loaded->scene);
@@ -52,7 +53,7 @@ Result<Patch> loadMesh(const std::filesystem::path& path, const PatchFileOptions
   patch.backing = options.backing;
   const Findings seams = checkTiling(patch);
   findings.insert(findings.end(), seams.begin(), seams.end());
-  return patch;
+  return WithFindings<Patch>{std::move(patch), std::move(findings)};
 }
 
 /// Rows from the top in the picture, from y = 0 in the field.
@@ -108,8 +109,9 @@ Result<scene::Texture> readColor(const std::filesystem::path& path) {
   return texture;
 }
 
-Result<Patch> loadHeights(const std::filesystem::path& path, const PatchFileOptions& options,
-                          Findings& findings) {
+Result<WithFindings<Patch>> loadHeights(const std::filesystem::path& path,
+                                        const PatchFileOptions& options) {
+  Findings findings;
   const bool isPng = file::extensionOf(path) == ".png";
   Result<HeightField> read = readHeights(path, isPng);
   if (!read) return read.error();
@@ -166,22 +168,22 @@ Result<Patch> loadHeights(const std::filesystem::path& path, const PatchFileOpti
   if (texture) material.baseColorTexture = 0;
   Patch patch = patchOf(field, size, material, path.stem().string());
   if (texture) patch.scene.textures.push_back(std::move(*texture));
-  return patch;
+  return WithFindings<Patch>{std::move(patch), std::move(findings)};
 }
 
 }  // namespace
 
-Result<Patch> loadPatch(const std::filesystem::path& path, const PatchFileOptions& options,
-                        Findings& findings) {
+Result<WithFindings<Patch>> loadPatch(const std::filesystem::path& path,
+                                      const PatchFileOptions& options) {
   if (!(options.blend >= 0.0f && options.blend <= 0.5f))
     return report::badUsage("blending reaches over 0 to 0.5 of the period");
   const std::string extension = file::extensionOf(path);
-  if (extension == ".png" || extension == ".exr") return loadHeights(path, options, findings);
+  if (extension == ".png" || extension == ".exr") return loadHeights(path, options);
   if (!options.color.empty())
     return report::badUsage(path.string() +
                             ": a colour picture goes with a height field; a mesh brings its own");
   if (extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".ply")
-    return loadMesh(path, options, findings);
+    return loadMesh(path, options);
   return report::badInput(path.string() +
                           ": a patch is a height field (.png, .exr) or a mesh (.glb, .gltf, .obj, "
                           ".ply)");

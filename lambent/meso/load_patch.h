@@ -33,8 +33,8 @@ struct PatchFileOptions {
 /// By extension: .png and .exr are height fields (PNG: code values, 8 or 16 bits, of the mean of
 /// its channels; EXR: the mean of R, G and B), top row at the far side (+y); .glb .gltf .obj .ply
 /// are meshes. Seams are reported (see checkTiling). BadInput names the file and the remedy.
-Result<Patch> loadPatch(const std::filesystem::path& path, const PatchFileOptions& options,
-                        Findings& findings);
+Result<WithFindings<Patch>> loadPatch(const std::filesystem::path& path,
+                                      const PatchFileOptions& options);
 
 /// Writes a patch's geometry, with its backing, as a .glb that lies on the ground (+Y up): what
 /// loadPatch reads by default.

@@ -55,7 +55,7 @@ Extent extentOf(const Patch& patch) {
   return box.empty() ? Extent{} : Extent{box.lower.z(), box.upper.z()};
 }
 
-Status check(const Patch& patch, Findings& findings) {
+Result<Findings> check(const Patch& patch) {
   const std::string name = patch.name.empty() ? "the patch" : patch.name;
   if (!(patch.size.array() > 0.0f).all() || !patch.size.allFinite())
     return report::badInput(name + ": its period is " + text(patch.size.x()) + " × " +
@@ -65,7 +65,7 @@ Status check(const Patch& patch, Findings& findings) {
     if (Status sound = checkMesh(patch.scene.meshes[m], patch.scene.materials.size(),
                                  name + ": mesh " + std::to_string(m));
         !sound)
-      return sound;
+      return sound.error();
   for (const scene::Material& material : patch.scene.materials) {
     const std::string which = name + ": material \"" + material.name + "\"";
     if (material.isMirror())
@@ -80,13 +80,14 @@ Status check(const Patch& patch, Findings& findings) {
   if (patch.backing && !isReflectance(*patch.backing))
     return report::badInput(name + ": the backing's reflectance lies outside of 0 to 1");
   const float depth = extentOf(patch).depth(), period = patch.size.minCoeff();
+  Findings findings;
   if (depth > 0.5f * period)
     findings.push_back({Severity::Warning, "deep-patch",
                         name + " is " + text(depth) + " m deep, with a period of " + text(period) +
                             " m. An RTT samples few views and is meant for thin patches: expect "
                             "blur in oblique views, or make it shallower",
                         1});
-  return Status::ok();
+  return findings;
 }
 
 }  // namespace lambent::meso

@@ -39,8 +39,8 @@ Extent extentOf(const Patch& patch);
 
 /// Whether an RTT can be built from the patch. BadInput: no triangles, a period that is not a
 /// positive number, positions that are not finite, triangles that name vertices or materials that
-/// do not exist, mirrors, reflectances outside [0, 1]. Warns in `findings` where the patch is
-/// deeper than half its period, for which a grid of views is too coarse.
-Status check(const Patch& patch, Findings& findings);
+/// do not exist, mirrors, reflectances outside [0, 1]. Otherwise what there is to say: a warning
+/// where the patch is deeper than half its period, for which a grid of views is too coarse.
+Result<Findings> check(const Patch& patch);
 
 }  // namespace lambent::meso

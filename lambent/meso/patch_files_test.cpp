@@ -27,6 +27,13 @@ class PatchFiles : public testing::Test {
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
+  /// The patch, and in findings_ what was said of it.
+  Result<Patch> load(const std::string& name, const PatchFileOptions& options = {}) {
+    auto loaded = loadPatch(folder_ / name, options);
+    if (!loaded) return loaded.error();
+    findings_ = std::move(loaded->findings);
+    return std::move(loaded->value);
+  }
   std::filesystem::path folder_;
   Findings findings_;
 };
@@ -45,7 +52,7 @@ TEST_F(PatchFiles, APngIsHeightsByItsCodeValues) {
   PatchFileOptions options;
   options.size = Vec2(0.4f, 0.2f);
   options.depth = 0.03f;
-  auto patch = loadPatch(folder_ / "ramp.png", options, findings_);
+  auto patch = load("ramp.png", options);
   ASSERT_TRUE(patch) << patch.error().message;
   EXPECT_NEAR(extentOf(*patch).depth(), 0.03f, 1e-6f);
   EXPECT_EQ(patch->triangleCount(), 2u * 32 * 16);
@@ -65,7 +72,7 @@ TEST_F(PatchFiles, BlendedBordersTile) {
   ASSERT_TRUE(image::write(ramp(64, 64), folder_ / "ramp.png"));
   PatchFileOptions options;
   options.blend = 0.25f;
-  auto patch = loadPatch(folder_ / "ramp.png", options, findings_);
+  auto patch = load("ramp.png", options);
   ASSERT_TRUE(patch);
   EXPECT_TRUE(findings_.empty()) << findings_[0].message;
 }
@@ -74,7 +81,7 @@ TEST_F(PatchFiles, TheTopOfAPictureLiesFarAway) {
   image::Image picture(8, 8);
   for (int x = 0; x < 8; ++x) picture.at(x, 0) = Rgb::Ones();
   ASSERT_TRUE(image::write(picture, folder_ / "top.exr"));
-  auto patch = loadPatch(folder_ / "top.exr", {}, findings_);
+  auto patch = load("top.exr");
   ASSERT_TRUE(patch) << patch.error().message;
   float where = -1.0f;
   for (const Vec3& p : patch->scene.meshes[0].positions)
@@ -90,7 +97,7 @@ TEST_F(PatchFiles, AColourPictureLiesOverTheHeights) {
   ASSERT_TRUE(image::write(color, folder_ / "color.png"));
   PatchFileOptions options;
   options.color = folder_ / "color.png";
-  auto patch = loadPatch(folder_ / "flat.png", options, findings_);
+  auto patch = load("flat.png", options);
   ASSERT_TRUE(patch) << patch.error().message;
   auto scene = PeriodicScene::build(*patch);
   ASSERT_TRUE(scene);
@@ -110,7 +117,7 @@ TEST_F(PatchFiles, AWeaveComesBackFromItsMesh) {
   ASSERT_TRUE(savePatch(patch, folder_ / "weave.glb"));
   PatchFileOptions options;
   options.size = patch.size;
-  auto back = loadPatch(folder_ / "weave.glb", options, findings_);
+  auto back = load("weave.glb", options);
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->triangleCount(), patch.triangleCount() + 2);
   const std::vector<Vec3>&there = patch.scene.meshes[0].positions,
@@ -123,7 +130,7 @@ TEST_F(PatchFiles, AWeaveComesBackFromItsMesh) {
 TEST_F(PatchFiles, AMeshThatDoesNotTileIsToldOf) {
   // A strip that rises along x: its ends do not meet.
   std::ofstream(folder_ / "ramp.obj") << "v 0 0 0\nv 1 0.2 0\nv 1 0.2 -1\nv 0 0 -1\nf 1 2 3 4\n";
-  auto patch = loadPatch(folder_ / "ramp.obj", {}, findings_);
+  auto patch = load("ramp.obj");
   ASSERT_TRUE(patch) << patch.error().message;
   EXPECT_EQ(patch->size, Vec2(1, 1));
   int seams = 0;
@@ -137,19 +144,19 @@ TEST_F(PatchFiles, AMeshThatDoesNotTileIsToldOf) {
 
 TEST_F(PatchFiles, TheUpAxisIsAsked) {
   std::ofstream(folder_ / "z.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-  auto standing = loadPatch(folder_ / "z.obj", {}, findings_);
+  auto standing = load("z.obj");
   ASSERT_FALSE(standing);
   EXPECT_NE(standing.error().message.find("--up z"), std::string::npos);
   PatchFileOptions options;
   options.up = UpAxis::Z;
-  auto lying = loadPatch(folder_ / "z.obj", options, findings_);
+  auto lying = load("z.obj", options);
   ASSERT_TRUE(lying) << lying.error().message;
   EXPECT_GT(lying->scene.meshes[0].normals[0].z(), 0.99f);
 }
 
 TEST_F(PatchFiles, HostileFilesAreRefusedByName) {
   const auto refusal = [&](const char* name, const PatchFileOptions& options = {}) {
-    auto patch = loadPatch(folder_ / name, options, findings_);
+    auto patch = load(name, options);
     EXPECT_FALSE(patch) << name;
     return patch ? std::string() : patch.error().message;
   };
@@ -175,7 +182,7 @@ TEST_F(PatchFiles, LargeHeightFieldsAreAveragedDown) {
   ASSERT_TRUE(image::write(picture, folder_ / "checks.exr"));
   PatchFileOptions options;
   options.maximumSamples = 50;
-  auto patch = loadPatch(folder_ / "checks.exr", options, findings_);
+  auto patch = load("checks.exr", options);
   ASSERT_TRUE(patch);
   EXPECT_EQ(patch->triangleCount(), 2u * 50 * 30);
   EXPECT_NEAR(extentOf(*patch).depth(), 0.0f, 1e-6f);

@@ -21,10 +21,9 @@ inline RttOptions smallOptions(int positions, int views) {
 }
 
 inline RadianceTransferTexture build(const Patch& patch, const RttOptions& options) {
-  Findings findings;
-  auto rtt = buildRtt(patch, options, {}, findings);
+  auto rtt = buildRtt(patch, options, {});
   EXPECT_TRUE(rtt) << (rtt ? "" : rtt.error().message);
-  return rtt ? std::move(*rtt) : RadianceTransferTexture{};
+  return rtt ? std::move(rtt->value) : RadianceTransferTexture{};
 }
 
 /// Quads, counter-clockwise from the front, each with its own flat normal.

@@ -121,8 +121,8 @@ Result<asset::Asset> wovenKnot() {
   structure.bands = 4;
   structure.directions = 384;
   Findings findings;
-  const auto rtt = meso::buildRtt(meso::weave(cloth), structure, {}, findings);
-  if (!rtt) return rtt.error();
+  const auto built = meso::buildRtt(meso::weave(cloth), structure, {});
+  if (!built) return built.error();
 
   bi_scale::SpreadOptions options;
   options.meshes = {0};
@@ -135,8 +135,9 @@ Result<asset::Asset> wovenKnot() {
   options.transfer.bands = structure.bands;
   options.transfer.directions = 4096;
   options.transfer.keepShadowed = true;
-  auto spread = bi_scale::spreadPatch(
-      std::move(scene), encode::encode(*rtt, encode::Encoding::Snorm8), options, {}, findings);
+  auto spread = bi_scale::spreadPatch(std::move(scene),
+                                      encode::encode(built->value, encode::Encoding::Snorm8),
+                                      options, {}, findings);
   if (!spread) return spread.error();
   return std::move(spread->asset);
 }
