@@ -25,6 +25,7 @@
 #include "lambent/trace/direction_set.h"
 #include "lambent/transport/bake.h"
 #include "lambent/transport/receivers.h"
+#include "lambent/work/flush_denormals.h"
 
 namespace {
 
@@ -91,7 +92,7 @@ class BareEmbree {
     const std::size_t chunks = (receivers_.size() + 63) / 64;
     tbb::parallel_for(std::size_t(0), (chunks + step - 1) / step, [&](std::size_t which) {
       const std::size_t chunk = which * step;
-      const trace::FlushDenormals flush;
+      const work::FlushDenormals flush;
       Room& room = rooms.local();
       const std::size_t end = std::min(receivers_.size(), 64 * chunk + 64);
       for (std::size_t r = 64 * chunk; r < end; ++r) work(static_cast<std::uint32_t>(r), room);

@@ -8,6 +8,7 @@
 #include "lambent/sh/basis.h"
 #include "lambent/sh/rotation.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/work/flush_denormals.h"
 
 namespace lambent::capture {
 
@@ -28,7 +29,7 @@ std::vector<sh::RgbCoefficients> captureByRays(const MovingScene& scene, double 
   if (!rays) return result;  // no bodies
   const std::vector<double> weights = cubeWeights(shape, bands);
   tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t p) {
-    const trace::FlushDenormals flush;
+    const work::FlushDenormals flush;
     CubePicture picture{shape, std::vector<Rgb>(std::size_t(6 * shape.drawn() * shape.drawn()))};
     const Vec3 origin = rotation * points[p] + translation;
     forAllSubTexels(shape, [&](std::size_t, std::size_t at, const Vec3d& direction, double) {

@@ -21,8 +21,8 @@
 #include "lambent/image/io.h"
 #include "lambent/meso/build_rtt.h"
 #include "lambent/meso/light_grid.h"
-#include "lambent/meso/parallel_rows.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/work/runner.h"
 
 namespace lambent::meso {
 
@@ -256,10 +256,11 @@ Result<WithFindings<RadianceTransferTexture>> acquireRtt(const std::filesystem::
   const BtfInterpolation interpolation(samples);
   if (progress && !progress({"interpolation", 1, 1, "systems"})) return report::cancelled();
   rtt.values.resize(count * rtt.planeSize());
-  ParallelRows rows(progress, options.threads);
-  const bool finished = rows.run(
-      "eq. 5", views.size(), 1, "views", std::vector<double>(lights.size()),
-      [&](std::size_t view, std::vector<double>& factors) {
+  const work::Runner runner(progress, options.threads);
+  const Status finished = runner.run(
+      {"eq. 5", "views"}, work::Chunks(views.size()), std::vector<double>(lights.size()),
+      [&](const work::Chunk& chunk, std::vector<double>& factors) {
+        const std::size_t view = chunk.index;
         // W: one row of weights for each coefficient; B = W · pictures.
         RowMajor weights(static_cast<Eigen::Index>(count), pictures.rows());
         for (std::size_t i = 0; i < count; ++i) {
@@ -276,7 +277,7 @@ Result<WithFindings<RadianceTransferTexture>> acquireRtt(const std::filesystem::
               rtt.values[i * rtt.planeSize() + (p * rtt.viewCount() + view) * 3 + c] =
                   b(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(3 * p + c));
       });
-  if (!finished) return report::cancelled();
+  if (!finished) return finished.error();
   return result;
 }
 

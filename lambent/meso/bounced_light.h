@@ -6,8 +6,8 @@
 
 #include "lambent/meso/facets.h"
 #include "lambent/meso/incident_light.h"
-#include "lambent/meso/parallel_rows.h"
 #include "lambent/report/result.h"
+#include "lambent/work/runner.h"
 
 namespace lambent::meso {
 
@@ -34,9 +34,9 @@ struct BounceOptions {
   std::size_t hitMemory = std::size_t(1) << 30;
 };
 
-/// Direct light of all facets, then bounce after bounce. Cancelled if `rows` is stopped.
+/// Direct light of all facets, then bounce after bounce. Cancelled if `runner` is stopped.
 Result<FacetLight> bouncedLight(const PeriodicScene& scene, const Facets& facets,
                                 const Lattice& lattice, const BounceOptions& options,
-                                ParallelRows& rows);
+                                const work::Runner& runner);
 
 }  // namespace lambent::meso

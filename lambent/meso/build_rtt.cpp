@@ -117,7 +117,8 @@ class Builder {
       for (int x = 0; x < options.views; ++x) views_.push_back(viewDirection(options.views, x, y));
   }
 
-  Status run(ParallelRows& rows, RadianceTransferTexture& rtt, RttCost& cost, Findings& findings);
+  Status run(const work::Runner& runner, RadianceTransferTexture& rtt, RttCost& cost,
+             Findings& findings);
 
  private:
   void position(int x, int y, Scratch& scratch) const;
@@ -142,7 +143,7 @@ class Builder {
   Vec2 size_;
 };
 
-Status Builder::run(ParallelRows& rows, RadianceTransferTexture& rtt, RttCost& cost,
+Status Builder::run(const work::Runner& runner, RadianceTransferTexture& rtt, RttCost& cost,
                     Findings& findings) {
   size_ = rtt.size;
   const Lattice facetLattice(options_.directions, math::hashCombine(options_.seed, 0),
@@ -152,7 +153,7 @@ Status Builder::run(ParallelRows& rows, RadianceTransferTexture& rtt, RttCost& c
   bounces.bounces = options_.bounces;
   bounces.wantBounced = bounces.bounces > 0 && options_.method == RttMethod::Images;
   bounces.lights = lights_.get();
-  Result<FacetLight> light = bouncedLight(scene_, facets_, facetLattice, bounces, rows);
+  Result<FacetLight> light = bouncedLight(scene_, facets_, facetLattice, bounces, runner);
   if (!light) return light.error();
   facetLight_ = std::move(*light);
 
@@ -161,9 +162,10 @@ Status Builder::run(ParallelRows& rows, RadianceTransferTexture& rtt, RttCost& c
   std::atomic<std::uint64_t> lightRays{facetLight_.rays}, backs{0};
   const Scratch prototype(options_.bands,
                           std::max(facetLight_.stride, transport::paddedRow(count_)));
-  const bool finished = rows.run(
-      "views", rtt.positionCount(), samples, "samples", prototype,
-      [&](std::size_t at, Scratch& scratch) {
+  const Status finished = runner.run(
+      {"views", "samples", samples}, work::Chunks(rtt.positionCount()), prototype,
+      [&](const work::Chunk& chunk, Scratch& scratch) {
+        const std::size_t at = chunk.index;
         const int x = static_cast<int>(at % rtt.width), y = static_cast<int>(at / rtt.width);
         scratch.cast.rays = 0;
         position(x, y, scratch);
@@ -177,7 +179,7 @@ Status Builder::run(ParallelRows& rows, RadianceTransferTexture& rtt, RttCost& c
         }
         backs += scratch.backs;
       });
-  if (!finished) return report::cancelled();
+  if (!finished) return finished.error();
   cost = {rtt.positionCount() * samples, lightRays, facets_.size(), scene_.tilesAcross()};
   if (backs * 100 > cost.viewRays)
     findings.push_back(
@@ -355,10 +357,10 @@ Result<WithFindings<RadianceTransferTexture>> buildRtt(const Patch& patch,
   const float spacing = (options.method == RttMethod::Gather ? 2.0f : 1.0f) *
                         std::min(patch.size.x() / options.width, patch.size.y() / options.height);
   const Facets facets(*scene, spacing);
-  ParallelRows rows(progress, options.threads);
+  const work::Runner runner(progress, options.threads);
   Builder builder(*scene, facets, options);
   RttCost ignored;
-  if (Status done = builder.run(rows, rtt, cost ? *cost : ignored, findings); !done)
+  if (Status done = builder.run(runner, rtt, cost ? *cost : ignored, findings); !done)
     return done.error();
   return WithFindings<RadianceTransferTexture>{std::move(rtt), std::move(findings)};
 }

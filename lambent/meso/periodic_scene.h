@@ -63,7 +63,7 @@ class PeriodicScene {
 
   /// One ray, from any origin, along a unit direction. `hit` is set unless it escaped.
   RayEnd trace(const Vec3& origin, const Vec3& direction, PeriodicHit& hit) const;
-  /// All directions with s·normal > 0, and what they met. FlushDenormals must be held.
+  /// All directions with s·normal > 0, and what they met. work::FlushDenormals must be held.
   void castClosest(const trace::DirectionSet& directions, const Vec3& origin, const Vec3& normal,
                    PeriodicCast& cast) const;
   /// The same, without `lit` and `hits`; somewhat faster.

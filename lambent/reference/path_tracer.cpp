@@ -8,24 +8,19 @@
 #include "lambent/reference/path_tracer.h"
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <limits>
-#include <mutex>
-
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <string_view>
 
 #include "lambent/reference/integrator.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/work/runner.h"
 
 namespace lambent::reference {
 namespace {
 
 // Few enough for strata to help, enough for the variance to be known within some 37 percent.
 constexpr int kBatches = 16;
-constexpr int kBlock = 64;  ///< pixels or points that a thread takes at a time
+constexpr std::size_t kBlock = 64;  ///< pixels or points that a thread takes at a time
 
 struct Plan {
   int batches, pathsPerBatch;
@@ -59,44 +54,15 @@ class BatchMoments {
   Value mean_ = Value::Zero(), squares_ = Value::Zero();
 };
 
-/// Runs body(i) for i in 0 … count−1 in parallel; false if the listener asked to stop.
+/// body(i) for i in 0 … count−1, in parallel.
 template <class Body>
-bool forAll(std::int64_t count, std::string_view unit, int threads, const Progress& progress,
-            const Body& body) {
-  using Clock = std::chrono::steady_clock;
-  std::atomic<std::int64_t> done = 0;
-  std::atomic<bool> stop = false;
-  std::mutex speaking;
-  Clock::time_point spoken = Clock::now();
-  const auto say = [&](std::int64_t finished) {
-    if (!progress({.stage = "path tracing",
-                   .done = std::uint64_t(finished),
-                   .total = std::uint64_t(count),
-                   .unit = unit}))
-      stop = true;
-  };
-  const auto run = [&] {
-    tbb::parallel_for(std::int64_t(0), (count + kBlock - 1) / kBlock, [&](std::int64_t block) {
-      if (stop) return;
-      {
-        const trace::FlushDenormals flush;
-        const std::int64_t end = std::min(count, (block + 1) * kBlock);
-        for (std::int64_t i = block * kBlock; i < end; ++i) body(i);
-        done += end - block * kBlock;
-      }
-      if (!progress) return;
-      const std::unique_lock lock(speaking, std::try_to_lock);
-      if (!lock.owns_lock() || Clock::now() - spoken < std::chrono::milliseconds(100)) return;
-      say(done);
-      spoken = Clock::now();
-    });
-  };
-  if (progress) say(0);
-  if (stop) return false;
-  const int most = tbb::info::default_concurrency();
-  tbb::task_arena(threads > 0 ? std::min(threads, most) : most).execute(run);
-  if (progress && !stop) say(count);
-  return !stop;
+Status forAll(std::size_t count, std::string_view unit, const PathTraceOptions& options,
+              const Progress& progress, const Body& body) {
+  const work::Runner runner(progress, options.threads);
+  return runner.run({"path tracing", unit}, work::Chunks(count, kBlock),
+                    [&](const work::Chunk& chunk) {
+                      for (std::size_t i = chunk.begin; i < chunk.end; ++i) body(i);
+                    });
 }
 
 Status check(const PathTraceOptions& options) {
@@ -122,9 +88,9 @@ Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
   Picture out{image::Image(width, height), image::Image(width, height)};
   out.mean.alpha.resize(out.mean.pixels.size());
 
-  const bool whole = forAll(
-      std::int64_t(width) * height, "pixels", options.threads, progress, [&](std::int64_t pixel) {
-        const auto x = float(pixel % width), y = float(pixel / width);
+  const Status whole =
+      forAll(out.mean.pixels.size(), "pixels", options, progress, [&](std::size_t pixel) {
+        const auto x = float(pixel % std::size_t(width)), y = float(pixel / std::size_t(width));
         BatchMoments<3> radiance;
         double coverage = 0;
         for (int batch = 0; batch < batches; ++batch) {
@@ -141,12 +107,11 @@ Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
           }
           radiance.add(sum / pathsPerBatch);
         }
-        const auto at = std::size_t(pixel);
-        out.mean.pixels[at] = radiance.mean().cast<float>();
-        out.variance.pixels[at] = radiance.varianceOfMean().cast<float>();
-        out.mean.alpha[at] = float(coverage / (double(batches) * pathsPerBatch));
+        out.mean.pixels[pixel] = radiance.mean().cast<float>();
+        out.variance.pixels[pixel] = radiance.varianceOfMean().cast<float>();
+        out.mean.alpha[pixel] = float(coverage / (double(batches) * pathsPerBatch));
       });
-  if (!whole) return report::cancelled();
+  if (!whole) return whole.error();
   if (options.background) out.mean.alpha.clear();
   return out;
 }
@@ -160,23 +125,20 @@ Result<std::vector<Estimate>> exitRadiance(const scene::Scene& scene, const trac
   const auto [batches, pathsPerBatch] = plan(options.samples);
   const Integrator integrator(scene, rays, environment, options);
   std::vector<Estimate> out(probes.size());
-  const bool whole =
-      forAll(std::int64_t(probes.size()), "points", options.threads, progress, [&](std::int64_t i) {
-        const Probe& probe = probes[std::size_t(i)];
-        BatchMoments<3> radiance;
-        for (int batch = 0; batch < batches; ++batch) {
-          Eigen::Array3d sum = Eigen::Array3d::Zero();
-          for (int path = 0; path < pathsPerBatch; ++path) {
-            Sampler sampler(options.seed, std::uint64_t(i), std::uint64_t(batch),
-                            std::uint32_t(path));
-            sum += integrator.leaving(probe.point, probe.toViewer, sampler).cast<double>();
-          }
-          radiance.add(sum / pathsPerBatch);
-        }
-        out[std::size_t(i)] = {radiance.mean().cast<float>(),
-                               radiance.varianceOfMean().cast<float>()};
-      });
-  if (!whole) return report::cancelled();
+  const Status whole = forAll(probes.size(), "points", options, progress, [&](std::size_t i) {
+    const Probe& probe = probes[i];
+    BatchMoments<3> radiance;
+    for (int batch = 0; batch < batches; ++batch) {
+      Eigen::Array3d sum = Eigen::Array3d::Zero();
+      for (int path = 0; path < pathsPerBatch; ++path) {
+        Sampler sampler(options.seed, std::uint64_t(i), std::uint64_t(batch), std::uint32_t(path));
+        sum += integrator.leaving(probe.point, probe.toViewer, sampler).cast<double>();
+      }
+      radiance.add(sum / pathsPerBatch);
+    }
+    out[i] = {radiance.mean().cast<float>(), radiance.varianceOfMean().cast<float>()};
+  });
+  if (!whole) return whole.error();
   return out;
 }
 

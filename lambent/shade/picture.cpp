@@ -7,18 +7,14 @@
 
 #include "lambent/shade/picture.h"
 
-#include <atomic>
-#include <chrono>
 #include <map>
-#include <mutex>
-
-#include <tbb/parallel_for.h>
 
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/picture_frame.h"
 #include "lambent/shade/rtt_footprint.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/work/runner.h"
 
 namespace lambent::shade {
 namespace {
@@ -84,15 +80,10 @@ Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficient
   image::Image image(width, height);
   image.alpha.resize(image.pixels.size());
 
-  using Clock = std::chrono::steady_clock;
-  constexpr auto kBetweenReports = std::chrono::milliseconds(100);
-  std::atomic<std::uint64_t> pixelsDone = 0;
-  std::atomic<bool> stop = false;
-  std::mutex reporting;  // guards nextReport too
-  Clock::time_point nextReport = Clock::now();
-  tbb::parallel_for(0, height, [&](int y) {
-    if (stop.load(std::memory_order_relaxed)) return;
-    const trace::FlushDenormals flush;
+  const work::Runner runner(progress, options.threads);
+  const work::Chunks rows(image.pixels.size(), std::size_t(width));
+  const Status whole = runner.run({"picture", "pixels"}, rows, [&](const work::Chunk& row) {
+    const int y = int(row.index);
     for (int x = 0; x < width; ++x) {
       Rgb sum = Rgb::Zero();
       int covered = 0;
@@ -106,15 +97,8 @@ Result<image::Image> picture(const asset::Asset& asset, const sh::RgbCoefficient
       image.at(x, y) = share * sum;
       image.alpha[std::size_t(y) * width + x] = float(covered) / float(positions.size());
     }
-    pixelsDone += width;
-    if (progress) {
-      const std::unique_lock lock(reporting, std::try_to_lock);
-      if (!lock || Clock::now() < nextReport) return;
-      nextReport = Clock::now() + kBetweenReports;
-      if (!progress({"picture", pixelsDone, image.pixels.size(), "pixels"})) stop = true;
-    }
   });
-  if (stop) return report::cancelled();
+  if (!whole) return whole.error();
   finishPicture(image, environment, camera, options);
   return image;
 }

@@ -20,6 +20,7 @@ struct PictureOptions {
   std::optional<float> lobeExponent;
   TransferChoice transfer = TransferChoice::Best;  ///< of what the asset holds
   BiScaleOptions biScale;  ///< of meshes with meso-structure; its `macro` wins over `transfer`
+  int threads = 0;         ///< for shade::picture; 0: all. No effect on the result's bytes
 };
 
 /// Linear radiance, never negative (what a ringing light drives below zero is cut off per pixel,

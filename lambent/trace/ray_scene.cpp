@@ -6,10 +6,6 @@
 
 #include "lambent/trace/embree_scene.h"
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
 namespace lambent::trace {
 
 namespace {
@@ -129,17 +125,5 @@ std::span<const std::uint32_t> RayScene::triangleOffsets() const {
 std::span<const std::uint32_t> RayScene::vertexOffsets() const {
   return impl_->vertexOffsets;
 }
-
-#if defined(__SSE2__)
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
-  _mm_setcsr(saved_ | 0x8040u);  // FTZ and DAZ
-}
-FlushDenormals::~FlushDenormals() {
-  _mm_setcsr(saved_);
-}
-#else
-FlushDenormals::FlushDenormals() : saved_(0) {}
-FlushDenormals::~FlushDenormals() = default;
-#endif
 
 }  // namespace lambent::trace

@@ -62,16 +62,4 @@ class RayScene {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Embree wants denormals flushed on every thread that traces: hold one of these meanwhile.
-class FlushDenormals {
- public:
-  FlushDenormals();
-  ~FlushDenormals();
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned saved_;
-};
-
 }  // namespace lambent::trace

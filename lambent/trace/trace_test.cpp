@@ -5,6 +5,7 @@
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 #include "lambent/trace/cast.h"
+#include "lambent/work/flush_denormals.h"
 
 namespace lambent::trace {
 namespace {
@@ -84,7 +85,7 @@ TEST(DirectionSet, IsEquallyWeightedWithTightBundles) {
 TEST(Cast, TakesJustTheHemisphereAndAgreesWithSingleRays) {
   const auto rays = RayScene::build(floorAndCeiling());
   ASSERT_TRUE(rays);
-  const FlushDenormals flush;
+  const work::FlushDenormals flush;
   CastResult occlusion, closest;
   for (int trial = 0; trial < 20; ++trial) {
     const DirectionSet set(997 + trial, math::randomRotation(trial));

@@ -22,7 +22,9 @@
 #include "lambent/math/random.h"
 #include "lambent/transport/collect.h"
 #include "lambent/transport/kept_hits.h"
+#include "lambent/transport/packed_hits.h"
 #include "lambent/transport/simulation.h"
+#include "lambent/work/flush_denormals.h"
 
 namespace lambent::transport {
 
@@ -87,7 +89,7 @@ class PassRunner {
     arena_.execute([&] {
       tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t chunk) {
         if (stop) return;
-        const trace::FlushDenormals flush;
+        const work::FlushDenormals flush;
         const std::size_t begin = chunk * kChunk, end = std::min(begin + kChunk, receivers);
         work(chunk, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
              scratches_.local());
@@ -122,6 +124,7 @@ class Bake {
       : s_(simulation),
         runner_(progress, simulation.options.threads),
         order_(spatialOrder(simulation.receivers)),
+        kept_({0, (order_.size() + kChunk - 1) / kChunk}, simulation.options.hitMemory),
         total_(s_.receivers.size() * s_.rowStride),
         totalMatrices_(s_.matrixCount * s_.matrixStride()) {}
 
@@ -160,12 +163,12 @@ class Bake {
 
   const Simulation& s_;
   PassRunner runner_;
-  std::vector<std::uint32_t> order_;          ///< neighbours after each other: caches stay warm
-  std::vector<float> total_, totalMatrices_;  ///< sums over passes of E and M
+  std::vector<std::uint32_t> order_;  ///< neighbours after each other: caches stay warm
+  KeptHits<PackedHits> kept_;
+  std::vector<float> total_, totalMatrices_;        ///< sums over passes of E and M
   std::vector<float> shadowed_, shadowedMatrices_;  ///< those of pass 0, if they are to be kept
   std::vector<float> exitRows_, matrices_;          ///< the pass before: ρ/π E, M
   std::vector<float> nextRows_, nextMatrices_;
-  std::vector<KeptHits> kept_;
   std::vector<double> passEnergy_;
 };
 
@@ -209,8 +212,6 @@ bool Bake::runDirect(bool bouncing) {
   const bool closest = bouncing || hasMirrors(s_.scene);
   const std::size_t receivers = s_.receivers.size();
   std::vector<double> energy((receivers + kChunk - 1) / kChunk);
-  if (bouncing) kept_.resize(energy.size());
-  std::atomic<std::size_t> keptBytes{0};
   const char* stage = unshadowed ? "unshadowed transfer"
                       : bouncing ? "shadows and hits"
                       : closest  ? "shadows and mirrors"
@@ -220,6 +221,7 @@ bool Bake::runDirect(bool bouncing) {
       unshadowed ? "receivers" : "rays",
       [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
         Gathered gathered(s_);
+        PackedHits hits;
         for (std::uint32_t k = begin; k < end; ++k) {
           const std::uint32_t r = order_[k];
           if (unshadowed) {
@@ -234,21 +236,12 @@ bool Bake::runDirect(bool bouncing) {
               scratch.counts.rays += scratch.cast.raysCast;
             }
             gatherDirect(s_, r, gathered, scratch);
-            if (bouncing) kept_[chunk].add(scratch.hits, s_.directions.size());
+            if (bouncing) hits.add(scratch.hits, s_.directions.size());
           }
           energy[chunk] += store(r, gathered, bouncing ? exitRows_.data() : nullptr,
                                  bouncing ? matrices_.data() : nullptr);
         }
-        if (!bouncing) return;
-        KeptHits& kept = kept_[chunk];
-        const std::size_t bytes = kept.bytes();
-        if (keptBytes.fetch_add(bytes) + bytes <= s_.options.hitMemory) {
-          kept.shrink();
-        } else {
-          // No room: this chunk casts again in every bounce, to the same records.
-          keptBytes -= bytes;
-          kept = {};
-        }
+        if (bouncing) kept_.keep(chunk, std::move(hits));
       });
   sumEnergy(energy);
   if (keepsShadowed()) shadowed_ = total_, shadowedMatrices_ = totalMatrices_;
@@ -259,15 +252,16 @@ bool Bake::runBounce(int bounce) {
   nextRows_.resize(exitRows_.size());
   nextMatrices_.resize(matrices_.size());
   const PreviousPass previous{exitRows_.data(), matrices_.data()};
-  std::vector<double> energy(kept_.size());
+  std::vector<double> energy((order_.size() + kChunk - 1) / kChunk);
   const bool finished =
       runner_.run("bounce " + std::to_string(bounce), s_.receivers.size(), 1, "receivers",
                   [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
                     Gathered gathered(s_);
+                    const PackedHits* hits = kept_.of(chunk);
                     for (std::uint32_t k = begin; k < end; ++k) {
                       const std::uint32_t r = order_[k];
-                      if (!kept_[chunk].empty())
-                        kept_[chunk].get(k - begin, s_.directions.size(), scratch.hits);
+                      if (hits)
+                        hits->get(k - begin, s_.directions.size(), scratch.hits);
                       else
                         castAndSort(r, scratch);
                       gatherBounce(s_, r, scratch.hits, previous, gathered, scratch);

@@ -11,6 +11,7 @@
 #include "lambent/sh/zonal.h"
 #include "lambent/transport/bake.h"
 #include "lambent/transport/direction_tables.h"
+#include "lambent/work/flush_denormals.h"
 
 namespace lambent::transport {
 namespace {
@@ -181,7 +182,7 @@ TEST(ClosedForm, GlossyShadowedMatrixIsTheSumOverDirectionsEntryForEntry) {
   ASSERT_EQ(plane.inBands, 3);
   // The very directions of the bake.
   const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
-  const trace::FlushDenormals flush;
+  const work::FlushDenormals flush;
   int compared = 0;
   for (std::size_t r = 0; r < plane.receiverCount(); ++r) {
     std::vector<double> expected(25 * 9, 0.0), y(25);

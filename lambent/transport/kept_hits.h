@@ -1,66 +1,56 @@
-// Private to this room: what the rays of pass 0 met, kept for the bounces.
+// What the rays of a first pass met, kept for the passes after it as far as memory allows.
 #pragma once
 
-#include <bit>
-#include <cstdint>
+#include <atomic>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
-#include "lambent/transport/hits.h"
+#include "lambent/work/chunks.h"
 
 namespace lambent::transport {
 
-/// The hits of a chunk's receivers, kept from pass 0 for the bounces. Directions are kept as a list
-/// or, where that is shorter, as one bit for each direction of the set: 4 to 6 bytes a hit.
+/// Hits of chunks of receivers, within a budget of bytes. A chunk for whose hits there was no room
+/// has none here and is cast again: rays that are cast again meet the same, so what is computed
+/// does not depend on the budget, nor on which chunks came first. Hits: what a chunk met, with
+/// bytes(), what it takes, and shrink(), which gives back what it reserved beyond that.
+template <class Hits>
 class KeptHits {
  public:
-  void add(const ReceiverHits& hits, std::size_t directionCount) {
-    begin_.push_back(static_cast<std::uint32_t>(receiver_.size()));
-    directionBegin_.push_back(static_cast<std::uint32_t>(directions_.size()));
-    mirroredBegin_.push_back(static_cast<std::uint32_t>(mirrored_.size()));
-    receiver_.insert(receiver_.end(), hits.receiver.begin(), hits.receiver.end());
-    mirrored_.insert(mirrored_.end(), hits.mirrored.begin(), hits.mirrored.end());
-    const std::size_t words = wordsFor(directionCount);
-    if (hits.direction.size() <= words) {
-      directions_.insert(directions_.end(), hits.direction.begin(), hits.direction.end());
+  /// Of the chunks of a range, in at most so many bytes.
+  KeptHits(work::ChunkRange chunks, std::size_t bytes)
+      : chunks_(chunks), budget_(bytes), kept_(chunks.size()) {}
+
+  /// Keeps what a chunk met, if there is room. Once for each chunk of the range, from any thread.
+  void keep(std::size_t chunk, Hits&& hits) {
+    const std::size_t bytes = hits.bytes();
+    if (used_.fetch_add(bytes) + bytes > budget_) {
+      used_ -= bytes;
       return;
     }
-    const std::size_t first = directions_.size();
-    directions_.resize(first + words);
-    for (const std::uint16_t d : hits.direction)
-      directions_[first + d / 16] |= static_cast<std::uint16_t>(1u << (d % 16));
+    hits.shrink();
+    Kept& place = kept_[chunk - chunks_.begin];
+    place.hits = std::move(hits);
+    place.here = true;
   }
 
-  /// Gives back what add() number `which` took: hits are in the sequence of their directions.
-  void get(std::size_t which, std::size_t directionCount, ReceiverHits& hits) const {
-    const auto slice = [which](const auto& from, const auto& starts, auto& to) {
-      const std::size_t last = which + 1 < starts.size() ? starts[which + 1] : from.size();
-      to.assign(from.begin() + starts[which], from.begin() + static_cast<std::ptrdiff_t>(last));
-    };
-    slice(receiver_, begin_, hits.receiver);
-    slice(mirrored_, mirroredBegin_, hits.mirrored);
-    const std::size_t words = wordsFor(directionCount);
-    if (hits.receiver.size() <= words) return slice(directions_, directionBegin_, hits.direction);
-    hits.direction.clear();
-    for (std::size_t w = 0; w < words; ++w)
-      for (unsigned bits = directions_[directionBegin_[which] + w]; bits != 0; bits &= bits - 1)
-        hits.direction.push_back(static_cast<std::uint16_t>(16 * w + std::countr_zero(bits)));
+  /// What a chunk met; null: cast it again.
+  const Hits* of(std::size_t chunk) const {
+    if (!chunks_.has(chunk) || !kept_[chunk - chunks_.begin].here) return nullptr;
+    return &kept_[chunk - chunks_.begin].hits;
   }
-
-  std::size_t bytes() const {
-    return receiver_.size() * 4 + directions_.size() * 2 + mirrored_.size() * sizeof(MirroredHit);
-  }
-  void shrink() {
-    receiver_.shrink_to_fit(), directions_.shrink_to_fit(), mirrored_.shrink_to_fit();
-  }
-  bool empty() const { return begin_.empty(); }
+  std::size_t bytes() const { return used_; }
 
  private:
-  static std::size_t wordsFor(std::size_t directionCount) { return (directionCount + 15) / 16; }
+  struct Kept {
+    Hits hits;
+    bool here = false;
+  };
 
-  std::vector<std::uint32_t> begin_, directionBegin_, mirroredBegin_;  ///< of every receiver
-  std::vector<std::uint32_t> receiver_;
-  std::vector<std::uint16_t> directions_;
-  std::vector<MirroredHit> mirrored_;
+  work::ChunkRange chunks_;
+  std::size_t budget_;
+  std::atomic<std::size_t> used_{0};
+  std::vector<Kept> kept_;
 };
 
 }  // namespace lambent::transport
