@@ -77,8 +77,8 @@ asan: setup
 
 tsan: setup
 	@cmake --preset tsan > build/tsan-configure.log 2>&1 || { cat build/tsan-configure.log; exit 1; }
-	@cmake --build build/tsan --parallel $(JOBS) --target lambent_trace_tests lambent_transport_tests
-	@ctest --test-dir build/tsan --output-on-failure -L '^(trace|transport)$$'
+	@cmake --build build/tsan --parallel $(JOBS) --target lambent_work_tests lambent_trace_tests lambent_macro_tests
+	@ctest --test-dir build/tsan --output-on-failure -L '^(work|trace|macro)$$'
 
 SOURCES = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 

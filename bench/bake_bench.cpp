@@ -19,11 +19,11 @@
 #include <map>
 
 #include "bench/figures_file.h"
+#include "lambent/macro/bake.h"
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/scene_io/load.h"
 #include "lambent/trace/direction_set.h"
-#include "lambent/transport/bake.h"
 #include "lambent/transport/receivers.h"
 #include "lambent/work/flush_denormals.h"
 
@@ -196,20 +196,18 @@ class BareEmbree {
 
 /// Seconds of every stage of a bake, by its name, from its progress reports.
 std::map<std::string, double> timedBake(const scene::Scene& scene, const trace::RayScene& rays,
-                                        const transport::BakeOptions& options) {
+                                        const macro::BakeOptions& options) {
   std::map<std::string, double> ends;
   std::vector<std::pair<std::string, double>> stages;
   const double start = now();
-  Findings findings;
-  const auto field = transport::bake(
-      scene, rays, options,
-      [&](const ProgressUpdate& update) {
+  const auto receivers = transport::placeReceivers(scene, {}, rays.offset());
+  const auto field =
+      macro::bake(scene, rays, *receivers, options, [&](const ProgressUpdate& update) {
         if (stages.empty() || stages.back().first != update.stage)
           stages.emplace_back(std::string(update.stage), 0.0);
         stages.back().second = now();
         return true;
-      },
-      findings);
+      });
   const double end = now();
   if (!field) {
     fmt::print(stderr, "{}\n", field.error().message);
@@ -240,10 +238,10 @@ void benchMesh(const std::string& name, const scene::Scene& mesh, int directions
   const BareEmbree bare(diffuse, directions);
   fmt::print("\n{}: {} receivers, {} directions\n", name, bare.receivers(), directions);
 
-  transport::BakeOptions shadowed;
+  macro::BakeOptions shadowed;
   shadowed.kind = transport::TransferKind::Shadowed;
   shadowed.directions = directions;
-  transport::BakeOptions bounced = shadowed;
+  macro::BakeOptions bounced = shadowed;
   bounced.kind = transport::TransferKind::Interreflected;
   bounced.bounces = 3;
 
@@ -304,7 +302,7 @@ void benchMemory(const std::string& name, const std::filesystem::path& path, int
     if (!loaded) _exit(1);
     const scene::Scene scene = grey(loaded->scene, false);
     const auto rays = trace::RayScene::build(scene);
-    transport::BakeOptions options;
+    macro::BakeOptions options;
     options.directions = directions;
     const double seconds = timedBake(scene, *rays, options)["all"];
     const double answer[2] = {seconds, static_cast<double>(scene.meshes[0].positions.size())};

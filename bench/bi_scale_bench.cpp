@@ -102,12 +102,12 @@ asset::Asset plainlyTextured(const scene::Scene& biScale) {
     texture.rgba[i] = ((i / 4) / 64 + (i / 4 / 1024) / 64) % 2 ? 200 : 90;
   scene.textures = {texture};
   for (scene::Material& material : scene.materials) material.baseColorTexture = 0;
-  transport::BakeOptions options;
+  macro::BakeOptions options;
   options.kind = transport::TransferKind::Unshadowed;
-  Findings findings;
   const auto rays = valueOf(trace::RayScene::build(scene));
+  const auto receivers = valueOf(transport::placeReceivers(scene, {}, rays.offset()));
   asset::Asset asset;
-  asset.transfer = encode::encode(valueOf(transport::bake(scene, rays, options, {}, findings)),
+  asset.transfer = encode::encode(valueOf(macro::bake(scene, rays, receivers, options, {})).value,
                                   encode::Encoding::Float16);
   asset.scene = std::move(scene);
   return asset;

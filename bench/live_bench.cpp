@@ -54,13 +54,14 @@ const light::Environment& environment() {
   return made;
 }
 
-asset::Asset bake(scene::Scene scene, transport::BakeOptions options = {}) {
+asset::Asset bake(scene::Scene scene, const transport::Placement& placement = {}) {
+  macro::BakeOptions options;
   options.kind = transport::TransferKind::Shadowed;
   options.directions = 64;
-  Findings findings;
   const trace::RayScene rays = valueOf(trace::RayScene::build(scene));
+  const auto receivers = valueOf(transport::placeReceivers(scene, placement, rays.offset()));
   asset::Asset asset;
-  asset.transfer = encode::encode(valueOf(transport::bake(scene, rays, options, {}, findings)),
+  asset.transfer = encode::encode(valueOf(macro::bake(scene, rays, receivers, options, {})).value,
                                   encode::Encoding::Float16);
   asset.scene = std::move(scene);
   return asset;
@@ -163,11 +164,11 @@ void benchKinds() {
   compare("diffuse, vertices, 3 channels", bake(scene::sceneOf(bumpySphere(vertices), coloured())));
   compare("glossy, vertices, 5 bands", bake(scene::sceneOf(bumpySphere(vertices), glossy())));
   {
-    transport::BakeOptions options;
-    options.texels = {{0, quick ? 32 : 128, quick ? 32 : 128}};
+    const int side = quick ? 32 : 128;
+    const transport::Placement placement{{{0, side, side}}, {}};
     scene::Mesh floor = scene::gridPlane(2, 2, 40, 40);
-    compare("diffuse, texels", bake(scene::sceneOf(floor, coloured()), options));
-    compare("glossy, texels, 5 bands", bake(scene::sceneOf(floor, glossy()), options));
+    compare("diffuse, texels", bake(scene::sceneOf(floor, coloured()), placement));
+    compare("glossy, texels, 5 bands", bake(scene::sceneOf(floor, glossy()), placement));
   }
   {
     scene::Scene caustic =
@@ -265,13 +266,13 @@ void benchTable1(const std::filesystem::path& inputs) {
     }
     benchRow(row, bake(scene::sceneOf(mesh, row.glossy ? glossy() : coloured())));
   }
-  transport::BakeOptions options;
-  options.texels = {{0, quick ? 32 : 256, quick ? 32 : 256}};
+  const int side = quick ? 32 : 256;
   scene::Scene ring = scene::sceneOf(scene::gridPlane(3, 3, 20, 20));
   scene::Material mirror;
   mirror.mirror = Rgb::Constant(0.9f);
   scene::addTo(ring, scene::ring(0.45f, 0.5f, 0.4f, 96, 8), mirror);
-  benchRow({"ring (texels and a mirror)", 0, false, 94, 94, 94}, bake(ring, options));
+  benchRow({"ring (texels and a mirror)", 0, false, 94, 94, 94},
+           bake(ring, {{{0, side, side}}, {}}));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ void diffuseAccuracy(const Studio& studio) {
       Error first;
       std::vector<double> biases;
       for (int seed = 0; seed < seeds; ++seed) {
-        transport::BakeOptions options;
+        macro::BakeOptions options;
         options.directions = directions, options.bounces = bounces;
         options.seed = static_cast<std::uint64_t>(seed);
         const Baked baked = bake(bunny, options);
@@ -137,7 +137,7 @@ void glossyAccuracy(const Studio& studio) {
     const auto bounced = truth(scene, sample, environment, studio.paths(4096), 1);
     fmt::print("| {} |", exponent);
     for (const int bands : {3, 5, 7, 9}) {
-      transport::BakeOptions options;
+      macro::BakeOptions options;
       options.directions = studio.directions();
       options.glossyBands = bands;
       options.bounces = 0;

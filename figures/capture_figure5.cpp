@@ -38,7 +38,7 @@ Stage stage(const Studio& studio) {
   const scene::Scene bunny = madeOf(studio.load("bunny.obj"), diffuseMaterial(Rgb::Constant(0.8f)));
   const scene::Box box = scene::bounds(bunny);
   const float r = 0.5f * box.diagonal();
-  transport::BakeOptions options;
+  macro::BakeOptions options;
   options.kind = transport::TransferKind::Shadowed;
   options.directions = studio.directions();
   Stage result{bake(bunny, options).asset,

@@ -17,7 +17,7 @@ namespace lambent::figures {
 
 namespace {
 
-using transport::BakeOptions;
+using macro::BakeOptions;
 using transport::TransferKind;
 
 BakeOptions optionsFor(const Studio& studio, TransferKind kind, int bounces = 2) {
@@ -87,12 +87,12 @@ void figure9(const Studio& studio) {
   BakeOptions options = optionsFor(studio, TransferKind::Interreflected, 1);
   options.directions = studio.quick ? 2048 : 16384;
   const int texels = studio.quick ? 128 : 256;
-  options.texels = {{0, texels, texels}};
-  const Baked baked = bake(scene, options);
+  const transport::Placement placement{{{0, texels, texels}}, {}};
+  const Baked baked = bake(scene, options, placement);
   fmt::print("ring: 5 bands, {}x{} texels, {} directions, {:.1f} s\n", texels, texels,
              options.directions, baked.seconds);
   options.bands = 10;
-  const Baked fine = bake(scene, options);
+  const Baked fine = bake(scene, options, placement);
   const scene::Camera camera = lookAt(Vec3(0, 4.2f, 4.4f), Vec3(0, 0, 0.1f), 36);
   const light::Environment world =
       light::Environment::uniform(Rgb(0.25f, 0.3f, 0.38f)) +
@@ -122,8 +122,7 @@ void figure10(const Studio& studio) {
   options.bands = 10;
   options.directions = studio.quick ? 4096 : 32768;
   const int texels = studio.quick ? 96 : 192;
-  options.texels = {{0, texels, texels}};
-  const Baked baked = bake(scene, options);
+  const Baked baked = bake(scene, options, {{{0, texels, texels}}, {}});
   const scene::Camera camera = lookAt(Vec3(2.2f, 2.6f, 2.6f), Vec3(0, 0.15f, 0), 42);
   struct Column {
     std::string label;
@@ -236,9 +235,10 @@ void table1(const Studio& studio) {
       "the paper's frames |\n|---|---|---|---|---|---|---|\n");
   const sh::RgbCoefficients light = studio.hdri("venice").project(5);
   for (const Row& row : rows) {
-    BakeOptions options = optionsFor(studio, TransferKind::Interreflected, 1);
-    if (row.texels > 0) options.texels = {{0, row.texels, row.texels}};
-    const Baked baked = bake(row.scene, options);
+    const BakeOptions options = optionsFor(studio, TransferKind::Interreflected, 1);
+    transport::Placement placement;
+    if (row.texels > 0) placement.texels = {{0, row.texels, row.texels}};
+    const Baked baked = bake(row.scene, options, placement);
     const encode::EncodedMesh& mesh = baked.asset.transfer.meshes[0];
     double seconds = 0.0;
     if (!mesh.vectors.empty()) {

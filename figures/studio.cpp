@@ -38,15 +38,16 @@ void Studio::save(const image::Image& picture, const std::string& name) const {
   fmt::print("wrote {}\n", path.string());
 }
 
-Baked bake(const scene::Scene& scene, const transport::BakeOptions& options) {
+Baked bake(const scene::Scene& scene, const macro::BakeOptions& options,
+           const transport::Placement& placement) {
   const auto start = std::chrono::steady_clock::now();
   const trace::RayScene rays = orDie(trace::RayScene::build(scene));
-  Findings findings;
-  const transport::TransferField field = orDie(transport::bake(scene, rays, options, {}, findings));
-  Baked baked;
-  baked.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  baked.asset = {scene, encode::encode(field, encode::Encoding::Float32)};
-  return baked;
+  const auto receivers = orDie(transport::placeReceivers(scene, placement, rays.offset()));
+  const auto baked = orDie(macro::bake(scene, rays, receivers, options, {}));
+  Baked out;
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  out.asset = {scene, encode::encode(baked.value, encode::Encoding::Float32)};
+  return out;
 }
 
 image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,

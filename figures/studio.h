@@ -9,10 +9,10 @@
 
 #include "lambent/asset/asset.h"
 #include "lambent/light/environment.h"
+#include "lambent/macro/bake.h"
 #include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/reference/path_tracer.h"
 #include "lambent/scene/camera.h"
-#include "lambent/transport/bake.h"
 
 namespace lambent::figures {
 
@@ -48,7 +48,8 @@ struct Baked {
   asset::Asset asset;
   double seconds = 0.0;
 };
-Baked bake(const scene::Scene& scene, const transport::BakeOptions& options);
+Baked bake(const scene::Scene& scene, const macro::BakeOptions& options,
+           const transport::Placement& placement = {});
 
 /// Linear radiance, relit by `light`; mirrors see `environment`.
 image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,

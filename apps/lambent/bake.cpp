@@ -14,7 +14,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/encode/encoded_field.h"
 #include "lambent/trace/ray_scene.h"
-#include "lambent/transport/bake.h"
+#include "lambent/transport/receivers.h"
 
 namespace lambent::tool {
 
@@ -82,10 +82,9 @@ Status runBake(BakeArguments arguments, Console& console) {
   auto scene = arguments.scene.load(console);
   if (!scene) return scene.error();
 
-  transport::BakeOptions options = arguments.transfer.chosen(console);
+  const macro::BakeOptions options = arguments.transfer.chosen(console);
   auto grids = resolveTexels(arguments.texels, *scene);
   if (!grids) return grids.error();
-  options.texels = *grids;
 
   // Without bounces there is no room for a slipped ray's light to gather in.
   const trace::Edges edges = options.kind == transport::TransferKind::Interreflected
@@ -93,17 +92,19 @@ Status runBake(BakeArguments arguments, Console& console) {
                                  : trace::Edges::Fast;
   auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene, edges); });
   if (!rays) return rays.error();
-  Findings findings;
-  auto field = transport::bake(*scene, *rays, options, console.progress(), findings);
-  console.report(findings);
-  if (!field && field.error().kind == ErrorKind::BadInput)
-    return badInput(arguments.scene.path.string() + ": " + field.error().message);
+  auto receivers = transport::placeReceivers(*scene, {std::move(*grids), {}}, rays->offset());
+  if (!receivers && receivers.error().kind == ErrorKind::BadInput)
+    return badInput(arguments.scene.path.string() + ": " + receivers.error().message);
+  if (!receivers) return receivers.error();
+  auto field = macro::bake(*scene, *rays, *receivers, options, console.progress());
   if (!field) return field.error();
+  *receivers = {};
+  console.report(field->findings);
 
   asset::Asset asset;
   asset.transfer =
-      console.stage("encode", [&] { return encode::encode(*field, arguments.encoding); });
-  *field = {};  // as large as the asset again
+      console.stage("encode", [&] { return encode::encode(field->value, arguments.encoding); });
+  field->value = {};  // as large as the asset again
   asset.scene = std::move(*scene);
   Status status =
       written(console.stage("write", [&] { return asset::write(asset, arguments.output); }));
@@ -150,7 +151,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       "bake", "Simulate once how light moves over a scene, and write an asset to relight");
   app->group("Verbs");
   app->footer(std::string(kExamples));
-  transport::BakeOptions& options = arguments->transfer.options;
+  macro::BakeOptions& options = arguments->transfer.options;
   arguments->scene.addTo(*app);
   app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
       ->option_text("ASSET.glb")

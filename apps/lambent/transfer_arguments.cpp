@@ -59,8 +59,8 @@ Status TransferArguments::check() const {
   return Status::ok();
 }
 
-transport::BakeOptions TransferArguments::chosen(const Console& console) const {
-  transport::BakeOptions chosen = options;
+macro::BakeOptions TransferArguments::chosen(const Console& console) const {
+  macro::BakeOptions chosen = options;
   chosen.threads = console.options().threads;
   return chosen;
 }

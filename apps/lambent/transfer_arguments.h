@@ -3,7 +3,7 @@
 
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/console.h"
-#include "lambent/transport/bake.h"
+#include "lambent/macro/bake.h"
 
 namespace lambent::tool {
 
@@ -11,7 +11,7 @@ namespace lambent::tool {
 Choices<transport::TransferKind> transferKinds();
 
 struct TransferArguments {
-  transport::BakeOptions options;
+  macro::BakeOptions options;
 
   /// --transfer, --keep-shadowed, --directions, --bounces, --energy-threshold, --seed,
   /// --hit-memory.
@@ -19,7 +19,7 @@ struct TransferArguments {
   /// BadUsage where the options contradict each other.
   Status check() const;
   /// The options, with the threads that were asked for.
-  transport::BakeOptions chosen(const Console& console) const;
+  macro::BakeOptions chosen(const Console& console) const;
 };
 
 }  // namespace lambent::tool

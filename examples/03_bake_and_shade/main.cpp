@@ -2,9 +2,9 @@
 #include <lambent/asset/asset.h>
 #include <lambent/encode/encoded_field.h>
 #include <lambent/light/environment.h>
+#include <lambent/macro/bake.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/shade/shade.h>
-#include <lambent/transport/bake.h>
 
 #include <cstdio>
 
@@ -23,20 +23,23 @@ int main() {
   const auto rays = trace::RayScene::build(scene);
   if (!rays) return std::fprintf(stderr, "%s\n", rays.error().message.c_str()), 1;
 
-  // The bake knows no light yet. It asks, at every vertex: how would you answer to each of the 25
-  // basis lights? `findings` tells what was odd about the scene.
-  transport::BakeOptions options;
+  // Where transfer is recorded: at every vertex, unless a placement names meshes and texels.
+  const auto receivers = transport::placeReceivers(scene, {}, rays->offset());
+  if (!receivers) return std::fprintf(stderr, "%s\n", receivers.error().message.c_str()), 1;
+
+  // The bake knows no light yet. It asks, at every receiver: how would you answer to each of the 25
+  // basis lights? Its findings tell what was odd about the scene.
+  macro::BakeOptions options;
   options.kind = transport::TransferKind::Interreflected;
   options.bands = 5;
   options.directions = 2048;
   options.bounces = 2;
-  Findings findings;
-  const auto field = transport::bake(scene, *rays, options, {}, findings);
+  const auto field = macro::bake(scene, *rays, *receivers, options, {});
   if (!field) return std::fprintf(stderr, "%s\n", field.error().message.c_str()), 1;
-  for (const Finding& finding : findings) std::printf("%s\n", finding.message.c_str());
+  for (const Finding& finding : field->findings) std::printf("%s\n", finding.message.c_str());
 
   // Half floats are enough to look at; Float32 keeps every bit.
-  const asset::Asset asset{scene, encode::encode(*field, encode::Encoding::Float16)};
+  const asset::Asset asset{scene, encode::encode(field->value, encode::Encoding::Float16)};
 
   // Now relight. Each light costs 25 multiplications per vertex and channel, and no ray.
   Rgb underTheBall = Rgb::Zero(), inTheOpen = Rgb::Zero();

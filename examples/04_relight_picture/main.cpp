@@ -5,13 +5,13 @@
 #include <lambent/asset/asset.h>
 #include <lambent/encode/encoded_field.h>
 #include <lambent/image/io.h>
+#include <lambent/macro/bake.h>
 #include <lambent/scene/camera.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/sh/rotation.h>
 #include <lambent/shade/picture.h>
 #include <lambent/sources/source.h>
 #include <lambent/tone/tone_curve.h>
-#include <lambent/transport/bake.h>
 
 #include <Eigen/Geometry>
 #include <cstdio>
@@ -30,12 +30,13 @@ Result<asset::Asset> bakeSmallScene() {
   scene::addTo(scene, scene::translated(scene::torus(1, 0.4f, 64, 32), Vec3(0, 0.4f, 0)), clay);
   auto rays = trace::RayScene::build(scene);
   if (!rays) return rays.error();
-  transport::BakeOptions options;
+  const auto receivers = transport::placeReceivers(scene, {}, rays->offset());
+  if (!receivers) return receivers.error();
+  macro::BakeOptions options;
   options.directions = 2048;
-  Findings findings;
-  auto field = transport::bake(scene, *rays, options, {}, findings);
+  auto field = macro::bake(scene, *rays, *receivers, options, {});
   if (!field) return field.error();
-  return asset::Asset{scene, encode::encode(*field, encode::Encoding::Float16)};
+  return asset::Asset{scene, encode::encode(field->value, encode::Encoding::Float16)};
 }
 
 Status run(int argc, char** argv) {

@@ -6,10 +6,10 @@
 #include <lambent/asset/asset.h>
 #include <lambent/encode/encoded_field.h>
 #include <lambent/light/environment.h>
+#include <lambent/macro/bake.h>
 #include <lambent/reference/path_tracer.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/shade/shade.h>
-#include <lambent/transport/bake.h>
 
 #include <cmath>
 #include <cstdio>
@@ -24,13 +24,14 @@ int main() {
   const auto rays = trace::RayScene::build(scene);
   if (!rays) return std::fprintf(stderr, "%s\n", rays.error().message.c_str()), 1;
 
-  transport::BakeOptions bakeOptions;
+  const auto receivers = transport::placeReceivers(scene, {}, rays->offset());
+  if (!receivers) return std::fprintf(stderr, "%s\n", receivers.error().message.c_str()), 1;
+  macro::BakeOptions bakeOptions;
   bakeOptions.directions = 8192;
   bakeOptions.bounces = 2;
-  Findings findings;
-  const auto field = transport::bake(scene, *rays, bakeOptions, {}, findings);
+  const auto field = macro::bake(scene, *rays, *receivers, bakeOptions, {});
   if (!field) return std::fprintf(stderr, "%s\n", field.error().message.c_str()), 1;
-  const asset::Asset asset{scene, encode::encode(*field, encode::Encoding::Float32)};
+  const asset::Asset asset{scene, encode::encode(field->value, encode::Encoding::Float32)};
 
   // The light: a warm disc and an even sky, cut to what the bake can see.
   const auto sky = light::Environment::disc(Vec3(0.6f, 0.8f, 0), 0.6, Rgb(6, 5, 3)) +

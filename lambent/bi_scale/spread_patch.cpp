@@ -267,7 +267,7 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
 
   Spread spread;
   Spreader spreader{scene, rtt, options, progress, findings, spread, {}};
-  transport::BakeOptions bakeOptions = options.transfer;
+  transport::Placement placement;
   std::vector<Placed> all;
   for (const std::uint32_t m : *chosen) {
     SpreadReport& report = spread.reports.emplace_back();
@@ -281,7 +281,7 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
     report.patches =
         report.area / (double(placed.scale) * placed.scale * rtt.size.x() * rtt.size.y());
     replaceMaterial(scene, m, rtt, options.albedo, findings);
-    transport::LocalFrames& frames = bakeOptions.biScale.emplace_back();
+    transport::LocalFrames& frames = placement.local.emplace_back();
     frames.mesh = m;
     const Status status = options.placement == Placement::OwnUvs
                               ? spreader.byOwnUvs(m, report, placed, frames.tangents)
@@ -297,18 +297,22 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
   const auto rays =
       staged(progress, "ray structure", [&] { return trace::RayScene::build(scene); });
   if (!rays) return rays.error();
-  auto field = transport::bake(scene, *rays, bakeOptions, progress, findings);
-  if (!field) return field.error();
+  const auto receivers = transport::placeReceivers(scene, placement, rays->offset());
+  if (!receivers) return receivers.error();
+  auto baked = macro::bake(scene, *rays, *receivers, options.transfer, progress);
+  if (!baked) return baked.error();
+  transport::TransferField& field = baked->value;
+  findings.insert(findings.end(), baked->findings.begin(), baked->findings.end());
   encode::EncodedField& transfer = spread.asset.transfer;
   transfer = staged(progress, "encode", [&] {
     // The matrices have an encoding of their own.
     std::vector<transport::LocalTransfer> locals;
     for (const Placed& placed : all) {
-      transport::LocalTransfer& local = *field->meshes[placed.mesh].local;
+      transport::LocalTransfer& local = *field.meshes[placed.mesh].local;
       locals.push_back(std::move(local));
       local = {};
     }
-    encode::EncodedField encoded = encode::encode(*field, options.vectorEncoding);
+    encode::EncodedField encoded = encode::encode(field, options.vectorEncoding);
     for (std::size_t k = 0; k < all.size(); ++k)
       encoded.meshes[all[k].mesh].biScale =
           encodeLocal(locals[k], all[k], options.matrixEncoding, spread.reports[k]);

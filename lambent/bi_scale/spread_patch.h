@@ -9,13 +9,13 @@
 
 #include "lambent/asset/asset.h"
 #include "lambent/atlas/atlas.h"
+#include "lambent/macro/bake.h"
 #include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
 #include "lambent/synthesis/tangent_field.h"
-#include "lambent/transport/bake.h"
 
 namespace lambent::bi_scale {
 
@@ -39,8 +39,8 @@ struct SpreadOptions {
   atlas::AtlasOptions atlas;  ///< its size is the id map's
   std::uint64_t seed = 0;
   Rgb albedo =
-      Rgb::Constant(0.5f);          ///< of the patch as a whole: what it sends on to other surfaces
-  transport::BakeOptions transfer;  ///< biScale is filled in here
+      Rgb::Constant(0.5f);  ///< of the patch as a whole: what it sends on to other surfaces
+  macro::BakeOptions transfer;
   encode::Encoding matrixEncoding = encode::Encoding::Snorm8;
   encode::Encoding vectorEncoding = encode::Encoding::Float16;  ///< of other meshes in the scene
 };
@@ -68,7 +68,7 @@ struct Spread {
 };
 
 /// The patch's colours and relief take the place of the material, texture and vertex colours of the
-/// meshes that carry it. Everything else in the scene is baked as transport::bake does. BadInput
+/// meshes that carry it. Everything else in the scene is baked at its vertices. BadInput
 /// and BadUsage name the mesh.
 Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
                            const SpreadOptions& options, const Progress& progress,

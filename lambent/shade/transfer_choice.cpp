@@ -4,7 +4,7 @@
 // - ramamoorthi2001efficient: eq. 8, Â_l of the clamped cosine.
 // - sloan2003biscale: §3, of M_p the rotation into the tangent frame is left.
 //
-// transport::bake yields the same numbers for TransferKind::Unshadowed.
+// macro::bake yields the same numbers for TransferKind::Unshadowed.
 
 #include "lambent/shade/transfer_choice.h"
 

@@ -1,6 +1,7 @@
 // Which transfer a choice shows: against bakes of that kind, and against the macro switches.
 
 #include "lambent/shade/transfer_choice.h"
+#include "lambent/macro/bake.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,6 @@
 #include "lambent/shade/shade.h"
 #include "lambent/shade/test_assets.h"
 #include "lambent/shade/test_patches.h"
-#include "lambent/transport/bake.h"
 
 namespace lambent::shade {
 namespace {
@@ -58,20 +58,20 @@ scene::Scene everyKind() {
 asset::Asset baked(TransferKind kind, bool keepShadowed, Encoding encoding = Encoding::Float32) {
   asset::Asset asset;
   asset.scene = everyKind();
-  transport::BakeOptions options;
+  macro::BakeOptions options;
   options.kind = kind;
   options.bands = 3;
   options.glossyBands = 4;
   options.directions = 256;
   options.bounces = 2;
   options.keepShadowed = keepShadowed;
-  options.texels = {{1, 7, 6}};
   const auto rays = trace::RayScene::build(asset.scene);
   EXPECT_TRUE(rays);
-  Findings findings;
-  const auto field = transport::bake(asset.scene, *rays, options, {}, findings);
+  const auto receivers = transport::placeReceivers(asset.scene, {{{1, 7, 6}}, {}}, rays->offset());
+  EXPECT_TRUE(receivers);
+  const auto field = macro::bake(asset.scene, *rays, *receivers, options, {});
   EXPECT_TRUE(field) << field.error().message;
-  asset.transfer = encode::encode(*field, encoding);
+  asset.transfer = encode::encode(field->value, encoding);
   return asset;
 }
 

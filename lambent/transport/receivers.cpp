@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "lambent/scene/diagnose.h"
@@ -126,12 +127,8 @@ std::vector<Vec3> inwardDirections(const scene::Mesh& mesh) {
   return inward;
 }
 
-}  // namespace
-
-namespace {
-
-Status checkFrames(const scene::Scene& scene, const BakeOptions& options) {
-  for (const LocalFrames& frames : options.biScale) {
+Status checkFrames(const scene::Scene& scene, const Placement& placement) {
+  for (const LocalFrames& frames : placement.local) {
     if (frames.mesh >= scene.meshes.size())
       return report::badUsage("tangent frames are given for mesh " + std::to_string(frames.mesh) +
                               " of " + std::to_string(scene.meshes.size()));
@@ -143,7 +140,7 @@ Status checkFrames(const scene::Scene& scene, const BakeOptions& options) {
     if (scene.materials[mesh.material].isMirror())
       return report::badUsage("mesh " + std::to_string(frames.mesh) +
                               " is a mirror: meso-structure can not be spread over it");
-    for (const TexelGrid& grid : options.texels)
+    for (const TexelGrid& grid : placement.texels)
       if (grid.mesh == frames.mesh)
         return report::badUsage("mesh " + std::to_string(frames.mesh) +
                                 " carries meso-structure: its receivers are vertices, not texels");
@@ -153,12 +150,12 @@ Status checkFrames(const scene::Scene& scene, const BakeOptions& options) {
 
 }  // namespace
 
-Result<Receivers> placeReceivers(const scene::Scene& scene, const BakeOptions& options,
+Result<Receivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
                                  float offset) {
-  const std::span<const TexelGrid> texels = options.texels;
+  const std::span<const TexelGrid> texels = placement.texels;
   Receivers receivers;
   receivers.meshes.resize(scene.meshes.size());
-  if (Status sound = checkFrames(scene, options); !sound) return sound.error();
+  if (Status sound = checkFrames(scene, placement); !sound) return sound.error();
   for (const TexelGrid& asked : texels) {
     if (asked.mesh >= scene.meshes.size())
       return report::badUsage("a texel grid is asked for mesh " + std::to_string(asked.mesh) +
@@ -174,8 +171,8 @@ Result<Receivers> placeReceivers(const scene::Scene& scene, const BakeOptions& o
     if (material.isMirror()) continue;
     place.isGlossy = material.isGlossy();
     place.isDiffuse = material.isDiffuse() || !place.isGlossy;  // black is a diffuse material too
-    for (const LocalFrames& frames : options.biScale)
-      if (frames.mesh == m) place.local = &frames, place.isGlossy = false, place.isDiffuse = true;
+    for (const LocalFrames& frames : placement.local)
+      if (frames.mesh == m) place.local = frames, place.isGlossy = false, place.isDiffuse = true;
     const auto asked = std::find_if(texels.begin(), texels.end(),
                                     [&](const TexelGrid& grid) { return grid.mesh == m; });
     if (asked != texels.end()) {

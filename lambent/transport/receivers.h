@@ -2,15 +2,33 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
-#include "lambent/transport/bake.h"
 #include "lambent/transport/transfer_field.h"
 
 namespace lambent::transport {
+
+/// A mesh whose receivers are to be texels of a width×height grid over its UV set.
+struct TexelGrid {
+  std::uint32_t mesh = 0;
+  int width = 256, height = 256;
+};
+
+/// A mesh that carries meso-structure: its receivers are its vertices, and what they record is the
+/// light that arrives there, as matrices in their tangent frames (MeshTransfer::local).
+struct LocalFrames {
+  std::uint32_t mesh = 0;
+  std::vector<Vec3> tangents;  ///< one per vertex: world space, unit, at right angles to the normal
+};
+
+/// Where the receivers of a scene are to stand: at the vertices of meshes that are not named here.
+struct Placement {
+  std::vector<TexelGrid> texels;
+  std::vector<LocalFrames> local;  ///< meshes whose transfer is local
+};
 
 /// All receivers of a scene, numbered through; mirrors have none.
 struct Receivers {
@@ -29,7 +47,7 @@ struct Receivers {
     bool isDiffuse = false, isGlossy = false;
     /// Bi-scale: a matrix records what arrives. What it sends on to others is diffuse, with the
     /// material's albedo: at the macro-scale the meso-structure is a matt surface.
-    const LocalFrames* local = nullptr;
+    std::optional<LocalFrames> local;
   };
   std::vector<PerMesh> meshes;
 
@@ -37,10 +55,9 @@ struct Receivers {
 };
 
 /// BadInput where texels are asked for and the UVs are missing, outside the unit square, or
-/// overlap.
-/// `offset`: how far origins are lifted off, trace::RayScene::offset(). The options' frames must
-/// outlive the receivers.
-Result<Receivers> placeReceivers(const scene::Scene& scene, const BakeOptions& options,
+/// overlap; BadUsage where the placement does not fit the scene.
+/// `offset`: how far origins are lifted off, trace::RayScene::offset().
+Result<Receivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
                                  float offset);
 
 /// All receivers along a Morton curve through their bounding box. Rays from neighbours walk the

@@ -9,10 +9,8 @@
 namespace lambent::transport {
 namespace {
 
-BakeOptions onGrid(const TexelGrid& grid) {
-  BakeOptions options;
-  options.texels = {grid};
-  return options;
+Placement onGrid(const TexelGrid& grid) {
+  return {{grid}, {}};
 }
 
 TEST(Receivers, VerticesStandWhereTheMeshStands) {

@@ -21,7 +21,7 @@ for file in config.parent.glob("*.cmake"):
     assert str(build) not in text, f"{file} names the build folder"
 
 headers = {str(header.relative_to(prefix / "include")) for header in prefix.rglob("*.h")}
-for wanted in ("lambent/sh/rotation.h", "lambent/transport/bake.h", "lambent/shade/shade.h"):
+for wanted in ("lambent/sh/rotation.h", "lambent/macro/bake.h", "lambent/shade/shade.h"):
     assert wanted in headers, f"{wanted} was not installed"
 assert not [h for h in headers if "test" in Path(h).name], "test headers were installed"
 assert not list(prefix.rglob("*.cpp")), "sources were installed"

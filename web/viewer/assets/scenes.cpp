@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "lambent/bi_scale/spread_patch.h"
+#include "lambent/macro/bake.h"
 #include "lambent/meso/build_rtt.h"
 #include "lambent/meso/generators.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/trace/ray_scene.h"
-#include "lambent/transport/bake.h"
 #include "web/viewer/assets/turned.h"
 
 namespace lambent::page {
@@ -88,14 +88,15 @@ Result<asset::Asset> stillLife() {
 
   const Result<trace::RayScene> rays = trace::RayScene::build(scene);
   if (!rays) return rays.error();
-  transport::BakeOptions options;
+  macro::BakeOptions options;
   options.directions = 4096;
   options.glossyBands = 3;
   options.bounces = 3;
-  Findings findings;
-  const auto field = transport::bake(scene, *rays, options, {}, findings);
+  const auto receivers = transport::placeReceivers(scene, {}, rays->offset());
+  if (!receivers) return receivers.error();
+  const auto field = macro::bake(scene, *rays, *receivers, options, {});
   if (!field) return field.error();
-  return asset::Asset{scene, encode::encode(*field, encode::Encoding::Float16)};
+  return asset::Asset{scene, encode::encode(field->value, encode::Encoding::Float16)};
 }
 
 Result<asset::Asset> wovenKnot() {

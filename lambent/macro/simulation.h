@@ -12,14 +12,28 @@
 #include <memory>
 #include <vector>
 
+#include "lambent/macro/bake.h"
 #include "lambent/sh/product.h"
 #include "lambent/sh/zonal.h"
-#include "lambent/transport/bake.h"
 #include "lambent/transport/direction_tables.h"
 #include "lambent/transport/hits.h"
 #include "lambent/transport/receivers.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
+
+using transport::addOuterProducts;
+using transport::addRows;
+using transport::DirectionTable;
+using transport::HitCounts;
+using transport::Layout;
+using transport::LocalTransfer;
+using transport::MeshTransfer;
+using transport::MirroredHit;
+using transport::MirrorEscape;
+using transport::ReceiverHits;
+using transport::Receivers;
+using transport::TransferField;
+using transport::TransferKind;
 
 struct Simulation {
   const scene::Scene& scene;
@@ -103,4 +117,4 @@ struct PreviousPass {
 void gatherBounce(const Simulation& simulation, std::uint32_t receiver, const ReceiverHits& hits,
                   const PreviousPass& previous, Gathered& gathered, Scratch& scratch);
 
-}  // namespace lambent::transport
+}  // namespace lambent::macro

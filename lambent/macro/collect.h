@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "lambent/transport/simulation.h"
+#include "lambent/macro/simulation.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 
 /// One channel serves for R, G and B as long as nothing on the way of the light has a colour.
 int channelsFor(const scene::Scene& scene, const Receivers& receivers, TransferKind kind);
@@ -21,4 +21,4 @@ struct Totals {
 MeshTransfer transferOf(const Simulation& simulation, std::uint32_t mesh, const Totals& totals,
                         const Totals* shadowed);
 
-}  // namespace lambent::transport
+}  // namespace lambent::macro

@@ -1,15 +1,14 @@
 // Properties of a bake: the same whatever the threads or the memory, linear, coloured, diagnosed.
-#include "lambent/transport/bake.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
+#include "lambent/macro/test_bake.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/coefficients.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 namespace {
 
 scene::Material painted(const Rgb& diffuse, const Rgb& glossy = Rgb::Zero()) {
@@ -33,13 +32,6 @@ scene::Scene mixedScene() {
   return scene;
 }
 
-Result<TransferField> bakeScene(const scene::Scene& scene, const BakeOptions& options,
-                                Findings& findings) {
-  const auto rays = trace::RayScene::build(scene);
-  EXPECT_TRUE(rays);
-  return bake(scene, *rays, options, {}, findings);
-}
-
 BakeOptions small() {
   BakeOptions options;
   options.kind = TransferKind::Interreflected;
@@ -59,39 +51,33 @@ void expectSameNumbers(const TransferField& a, const TransferField& b) {
 }
 
 TEST(Bake, IsTheSameAtAnyThreadCount) {
-  Findings findings;
   BakeOptions options = small();
   options.threads = 1;
-  const auto one = bakeScene(mixedScene(), options, findings);
+  const TransferField one = bakeOrDie(mixedScene(), options);
   options.threads = 4;
-  const auto four = bakeScene(mixedScene(), options, findings);
-  ASSERT_TRUE(one && four);
-  expectSameNumbers(*one, *four);
+  const TransferField four = bakeOrDie(mixedScene(), options);
+  expectSameNumbers(one, four);
 }
 
 TEST(Bake, IsTheSameWhenHitsDoNotFitAndAreCastAgain) {
-  Findings findings;
   BakeOptions options = small();
-  const auto kept = bakeScene(mixedScene(), options, findings);
+  const TransferField kept = bakeOrDie(mixedScene(), options);
   options.hitMemory = 0;
-  const auto again = bakeScene(mixedScene(), options, findings);
-  ASSERT_TRUE(kept && again);
-  expectSameNumbers(*kept, *again);
+  const TransferField again = bakeOrDie(mixedScene(), options);
+  expectSameNumbers(kept, again);
 }
 
 TEST(Bake, SeedsGiveIndependentErrorsOfTheSameSize) {
-  Findings findings;
   BakeOptions options = small();
   options.kind = TransferKind::Shadowed;
-  const auto a = bakeScene(mixedScene(), options, findings);
+  const TransferField a = bakeOrDie(mixedScene(), options);
   options.seed = 1;
-  const auto b = bakeScene(mixedScene(), options, findings);
-  ASSERT_TRUE(a && b);
-  EXPECT_NE(a->meshes[0].vectors, b->meshes[0].vectors);
+  const TransferField b = bakeOrDie(mixedScene(), options);
+  EXPECT_NE(a.meshes[0].vectors, b.meshes[0].vectors);
   double difference = 0.0, size = 0.0;
-  for (std::size_t k = 0; k < a->meshes[0].vectors.size(); ++k) {
-    difference += std::pow(a->meshes[0].vectors[k] - b->meshes[0].vectors[k], 2);
-    size += std::pow(a->meshes[0].vectors[k], 2);
+  for (std::size_t k = 0; k < a.meshes[0].vectors.size(); ++k) {
+    difference += std::pow(a.meshes[0].vectors[k] - b.meshes[0].vectors[k], 2);
+    size += std::pow(a.meshes[0].vectors[k], 2);
   }
   EXPECT_LT(std::sqrt(difference / size), 0.05);
 }
@@ -99,20 +85,18 @@ TEST(Bake, SeedsGiveIndependentErrorsOfTheSameSize) {
 TEST(Bake, LeavesEmissionOutAndSaysSo) {
   scene::Scene glowing = mixedScene();
   glowing.materials[std::size_t(glowing.meshes[0].material)].emission = Rgb(5, 5, 5);
-  Findings without, with;
-  const auto dark = bakeScene(mixedScene(), small(), without);
-  const auto bright = bakeScene(glowing, small(), with);
+  const auto dark = bakeScene(mixedScene(), small());
+  const auto bright = bakeScene(glowing, small());
   ASSERT_TRUE(dark && bright);
-  expectSameNumbers(*dark, *bright);
+  expectSameNumbers(dark->value, bright->value);
+  const Findings &without = dark->findings, &with = bright->findings;
   ASSERT_EQ(with.size(), without.size() + 1);
   EXPECT_EQ(with.back().code, "emission-left-out");
 }
 
 TEST(Bake, ARedWallBleedsRed) {
-  Findings findings;
-  const auto field = bakeScene(mixedScene(), small(), findings);
-  ASSERT_TRUE(field);
-  const MeshTransfer& floor = field->meshes[0];
+  const TransferField field = bakeOrDie(mixedScene(), small());
+  const MeshTransfer& floor = field.meshes[0];
   ASSERT_EQ(floor.channels, 3);
   // Beside the wall the floor is redder than far from it.
   const auto redness = [&](float x) {
@@ -128,17 +112,15 @@ TEST(Bake, ARedWallBleedsRed) {
 }
 
 TEST(Bake, EveryKindOfReceiverIsServed) {
-  Findings findings;
-  const auto field = bakeScene(mixedScene(), small(), findings);
-  ASSERT_TRUE(field);
-  EXPECT_FALSE(field->meshes[0].vectors.empty());
-  EXPECT_TRUE(field->meshes[0].matrices.empty());
-  EXPECT_FALSE(field->meshes[2].vectors.empty());
-  EXPECT_EQ(field->meshes[2].matrices.size(), field->meshes[2].receiverCount() * 3 * 9 * 9);
-  EXPECT_EQ(field->meshes[3].layout, Layout::None);
-  ASSERT_EQ(field->passEnergy.size(), 3u);
-  EXPECT_LT(field->passEnergy[2], field->passEnergy[1]);
-  EXPECT_LT(field->passEnergy[1], field->passEnergy[0]);
+  const TransferField field = bakeOrDie(mixedScene(), small());
+  EXPECT_FALSE(field.meshes[0].vectors.empty());
+  EXPECT_TRUE(field.meshes[0].matrices.empty());
+  EXPECT_FALSE(field.meshes[2].vectors.empty());
+  EXPECT_EQ(field.meshes[2].matrices.size(), field.meshes[2].receiverCount() * 3 * 9 * 9);
+  EXPECT_EQ(field.meshes[3].layout, Layout::None);
+  ASSERT_EQ(field.passEnergy.size(), 3u);
+  EXPECT_LT(field.passEnergy[2], field.passEnergy[1]);
+  EXPECT_LT(field.passEnergy[1], field.passEnergy[0]);
 }
 
 // The direct light is the same numbers whether bounces follow or not: kept, it is a shadowed bake.
@@ -152,55 +134,50 @@ TEST(Bake, KeptShadowedTransferIsAShadowedBake) {
         const scene::Scene& scene = isPainted ? painted : grey;
         BakeOptions options = small();
         options.glossyBands = 2;
-        options.texels = {{0, 20, 12}};
+        const Placement placement{{{0, 20, 12}}, {}};
         options.hitMemory = memory;
         options.kind = TransferKind::Shadowed;
-        Findings findings;
-        const auto alone = bakeScene(scene, options, findings);
+        const TransferField alone = bakeOrDie(scene, options, placement);
         options.kind = TransferKind::Interreflected;
         options.bounces = bounces;
-        const auto plain = bakeScene(scene, options, findings);
+        const TransferField plain = bakeOrDie(scene, options, placement);
         options.keepShadowed = true;
-        const auto both = bakeScene(scene, options, findings);
-        ASSERT_TRUE(alone && plain && both);
-        expectSameNumbers(*both, *plain);
+        const TransferField both = bakeOrDie(scene, options, placement);
+        expectSameNumbers(both, plain);
         for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-          const MeshTransfer& a = alone->meshes[m];
-          const ShadowedTransfer& kept = both->meshes[m].shadowed;
+          const MeshTransfer& a = alone.meshes[m];
+          const ShadowedTransfer& kept = both.meshes[m].shadowed;
           EXPECT_EQ(kept.channels, a.channels);
           EXPECT_EQ(kept.vectors, a.vectors);
           EXPECT_EQ(kept.matrixChannels, a.matrixChannels);
           EXPECT_EQ(kept.matrices, a.matrices);
-          EXPECT_TRUE(a.shadowed.empty() && plain->meshes[m].shadowed.empty());
+          EXPECT_TRUE(a.shadowed.empty() && plain.meshes[m].shadowed.empty());
         }
-        EXPECT_FALSE(both->meshes[0].shadowed.vectors.empty());
-        EXPECT_FALSE(both->meshes[2].shadowed.matrices.empty());
+        EXPECT_FALSE(both.meshes[0].shadowed.vectors.empty());
+        EXPECT_FALSE(both.meshes[2].shadowed.matrices.empty());
         // Only what has a colour of its own, or is lit by a painted mirror, needs three channels.
-        EXPECT_EQ(both->meshes[2].shadowed.matrixChannels, isPainted ? 3 : 1);
-        EXPECT_EQ(both->meshes[2].matrixChannels, 3);
+        EXPECT_EQ(both.meshes[2].shadowed.matrixChannels, isPainted ? 3 : 1);
+        EXPECT_EQ(both.meshes[2].matrixChannels, 3);
       }
 }
 
 TEST(Bake, StopsWhenAPassHasLittleEnergy) {
-  Findings findings;
   BakeOptions options = small();
   options.bounces = 50;
   options.energyThreshold = 1e-4;
-  const auto field = bakeScene(mixedScene(), options, findings);
-  ASSERT_TRUE(field);
-  EXPECT_LT(field->bounces, 20);
-  EXPECT_LE(field->passEnergy.back(), 1e-4 * field->passEnergy.front());
+  const TransferField field = bakeOrDie(mixedScene(), options);
+  EXPECT_LT(field.bounces, 20);
+  EXPECT_LE(field.passEnergy.back(), 1e-4 * field.passEnergy.front());
 }
 
 TEST(Bake, ColourCostsChannelsOnlyWhereItIsNeeded) {
-  Findings findings;
   scene::Scene scene;
   scene::addTo(scene, scene::icosphere(1, 1), painted(Rgb(0.9f, 0.5f, 0.1f)));
   BakeOptions options = small();
   options.kind = TransferKind::Shadowed;
-  EXPECT_EQ(bakeScene(scene, options, findings)->meshes[0].channels, 3);
+  EXPECT_EQ(bakeOrDie(scene, options).meshes[0].channels, 3);
   scene.materials[0].diffuse = Rgb::Constant(0.5f);
-  EXPECT_EQ(bakeScene(scene, options, findings)->meshes[0].channels, 1);
+  EXPECT_EQ(bakeOrDie(scene, options).meshes[0].channels, 1);
 }
 
 TEST(Bake, TexelsOfAPlaneAgreeWithVerticesAtTheirCentres) {
@@ -212,16 +189,14 @@ TEST(Bake, TexelsOfAPlaneAgreeWithVerticesAtTheirCentres) {
                  painted(Rgb::Constant(0.5f)));
     return scene;
   };
-  Findings findings;
   BakeOptions options = small();
   options.kind = TransferKind::Shadowed;
   const float inner = 2.0f * (kSide - 1) / kSide;
-  const auto vertices =
-      bakeScene(underBall(scene::gridPlane(inner, inner, kSide - 1, kSide - 1)), options, findings);
-  options.texels = {{0, kSide, kSide}};
-  const auto texels = bakeScene(underBall(scene::gridPlane(2, 2, 1, 1)), options, findings);
-  ASSERT_TRUE(vertices && texels);
-  const MeshTransfer &grid = texels->meshes[0], &points = vertices->meshes[0];
+  const TransferField vertices =
+      bakeOrDie(underBall(scene::gridPlane(inner, inner, kSide - 1, kSide - 1)), options);
+  const TransferField texels =
+      bakeOrDie(underBall(scene::gridPlane(2, 2, 1, 1)), options, {{{0, kSide, kSide}}, {}});
+  const MeshTransfer &grid = texels.meshes[0], &points = vertices.meshes[0];
   ASSERT_EQ(grid.layout, Layout::Texels);
   std::size_t compared = 0;
   for (std::size_t t = 0; t < grid.receiverCount(); ++t)
@@ -238,47 +213,46 @@ TEST(Bake, TellsOfReceiversInsideAMesh) {
   scene::Scene scene;
   scene::addTo(scene, scene::icosphere(1, 2), painted(Rgb::Constant(0.5f)));
   scene::addTo(scene, scene::icosphere(0.3f, 1), painted(Rgb::Constant(0.5f)));
-  Findings findings;
-  const auto field = bakeScene(scene, small(), findings);
-  ASSERT_TRUE(field);
+  const auto baked = bakeScene(scene, small());
+  ASSERT_TRUE(baked);
   bool told = false;
-  for (const Finding& finding : findings)
+  for (const Finding& finding : baked->findings)
     if (finding.code == "receivers-inside") {
       told = true;
       EXPECT_EQ(finding.count, 42u);
     }
   EXPECT_TRUE(told);
   // The ball inside is black, and the one outside is as if there were nothing inside it.
-  for (const float value : field->meshes[1].vectors) EXPECT_EQ(value, 0.0f);
+  for (const float value : baked->value.meshes[1].vectors) EXPECT_EQ(value, 0.0f);
 }
 
 TEST(Bake, RefusesWhatMakesNoSense) {
   const scene::Scene scene = scene::sceneOf(scene::icosphere(1, 0));
-  Findings findings;
   for (const auto& spoil : std::vector<std::function<void(BakeOptions&)>>{
            [](BakeOptions& o) { o.bands = 0; }, [](BakeOptions& o) { o.bands = 11; },
            [](BakeOptions& o) { o.directions = 3; }, [](BakeOptions& o) { o.bounces = -1; },
-           [](BakeOptions& o) { o.energyThreshold = NAN; },
-           [](BakeOptions& o) {
-             o.texels = {{5, 8, 8}};
-           }}) {
+           [](BakeOptions& o) { o.energyThreshold = NAN; }}) {
     BakeOptions options = small();
     spoil(options);
-    const auto field = bakeScene(scene, options, findings);
+    const auto field = bakeScene(scene, options);
     ASSERT_FALSE(field);
     EXPECT_EQ(field.error().kind, ErrorKind::BadUsage);
   }
+  const auto field = bakeScene(scene, small(), {{{5, 8, 8}}, {}});
+  ASSERT_FALSE(field);
+  EXPECT_EQ(field.error().kind, ErrorKind::BadUsage);
 }
 
 TEST(Bake, CanBeCancelled) {
   const scene::Scene scene = mixedScene();
   const auto rays = trace::RayScene::build(scene);
-  Findings findings;
-  const auto field = bake(
-      scene, *rays, small(), [](const ProgressUpdate&) { return false; }, findings);
+  const auto receivers = transport::placeReceivers(scene, {}, rays->offset());
+  ASSERT_TRUE(receivers);
+  const auto field =
+      bake(scene, *rays, *receivers, small(), [](const ProgressUpdate&) { return false; });
   ASSERT_FALSE(field);
   EXPECT_EQ(field.error().kind, ErrorKind::Cancelled);
 }
 
 }  // namespace
-}  // namespace lambent::transport
+}  // namespace lambent::macro

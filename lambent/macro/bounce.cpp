@@ -14,11 +14,11 @@
 // third of the traffic for an error far below that of the directions.
 #include <algorithm>
 
+#include "lambent/macro/simulation.h"
 #include "lambent/math/directions.h"
 #include "lambent/sh/basis.h"
-#include "lambent/transport/simulation.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 
 namespace {
 
@@ -158,4 +158,4 @@ void gatherBounce(const Simulation& simulation, std::uint32_t receiver, const Re
   }
 }
 
-}  // namespace lambent::transport
+}  // namespace lambent::macro

@@ -1,8 +1,10 @@
-#include "lambent/transport/collect.h"
+#include "lambent/macro/collect.h"
 
 #include <algorithm>
 
-namespace lambent::transport {
+namespace lambent::macro {
+
+using transport::Albedo;
 
 namespace {
 
@@ -137,4 +139,4 @@ MeshTransfer transferOf(const Simulation& s, std::uint32_t meshIndex, const Tota
   return out;
 }
 
-}  // namespace lambent::transport
+}  // namespace lambent::macro

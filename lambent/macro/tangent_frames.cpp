@@ -6,10 +6,10 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/macro/simulation.h"
 #include "lambent/sh/rotation.h"
-#include "lambent/transport/simulation.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::vector<float> inTangentFrames(const Simulation& simulation, const Receivers
   return turned;
 }
 
-}  // namespace lambent::transport
+}  // namespace lambent::macro

@@ -5,7 +5,7 @@
 //
 // Results do not depend on the number of threads: a receiver is the work of one thread, and sums
 // over receivers are taken chunk by chunk in sequence.
-#include "lambent/transport/bake.h"
+#include "lambent/macro/bake.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/info.h>
@@ -14,19 +14,20 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <mutex>
 #include <string>
 
+#include "lambent/macro/collect.h"
+#include "lambent/macro/simulation.h"
 #include "lambent/math/random.h"
-#include "lambent/transport/collect.h"
 #include "lambent/transport/kept_hits.h"
 #include "lambent/transport/packed_hits.h"
-#include "lambent/transport/simulation.h"
 #include "lambent/work/flush_denormals.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 
 namespace {
 
@@ -38,7 +39,7 @@ bool hasMirrors(const scene::Scene& scene) {
   });
 }
 
-Status check(const BakeOptions& options) {
+Status check(const BakeOptions& options, const Receivers& receivers) {
   const auto outside = [](const char* name, auto value, auto low, auto high) {
     return report::badUsage(std::string(name) + " is " + std::to_string(value) + ", not " +
                             std::to_string(low) + " to " + std::to_string(high));
@@ -51,7 +52,10 @@ Status check(const BakeOptions& options) {
     return outside("directions", options.directions, 16, 65536);
   if (options.bounces < 0 || options.bounces > 1000)
     return outside("bounces", options.bounces, 0, 1000);
-  if (!options.biScale.empty() && options.glossyBands != 0 && options.glossyBands != options.bands)
+  const bool isLocal =
+      std::any_of(receivers.meshes.begin(), receivers.meshes.end(),
+                  [](const Receivers::PerMesh& mesh) { return mesh.local.has_value(); });
+  if (isLocal && options.glossyBands != 0 && options.glossyBands != options.bands)
     return report::badUsage("glossy bands are " + std::to_string(options.glossyBands) +
                             " and bands " + std::to_string(options.bands) +
                             ": bi-scale matrices have as many rows as columns");
@@ -123,7 +127,7 @@ class Bake {
   Bake(const Simulation& simulation, const Progress& progress)
       : s_(simulation),
         runner_(progress, simulation.options.threads),
-        order_(spatialOrder(simulation.receivers)),
+        order_(transport::spatialOrder(simulation.receivers)),
         kept_({0, (order_.size() + kChunk - 1) / kChunk}, simulation.options.hitMemory),
         total_(s_.receivers.size() * s_.rowStride),
         totalMatrices_(s_.matrixCount * s_.matrixStride()) {}
@@ -164,7 +168,7 @@ class Bake {
   const Simulation& s_;
   PassRunner runner_;
   std::vector<std::uint32_t> order_;  ///< neighbours after each other: caches stay warm
-  KeptHits<PackedHits> kept_;
+  transport::KeptHits<transport::PackedHits> kept_;
   std::vector<float> total_, totalMatrices_;        ///< sums over passes of E and M
   std::vector<float> shadowed_, shadowedMatrices_;  ///< those of pass 0, if they are to be kept
   std::vector<float> exitRows_, matrices_;          ///< the pass before: ρ/π E, M
@@ -175,8 +179,8 @@ class Bake {
 void Bake::castAndSort(std::uint32_t receiver, Scratch& scratch) const {
   trace::castClosest(s_.rays, s_.directions, s_.receivers.origins[receiver],
                      s_.receivers.normals[receiver], scratch.cast);
-  sortHits(s_.scene, s_.rays, s_.receivers, s_.directions, receiver, scratch.cast, scratch.hits,
-           scratch.escapes, scratch.counts);
+  transport::sortHits(s_.scene, s_.rays, s_.receivers, s_.directions, receiver, scratch.cast,
+                      scratch.hits, scratch.escapes, scratch.counts);
 }
 
 /// Adds a receiver's share of a pass to the totals, leaves it for the next pass, and returns its
@@ -221,7 +225,7 @@ bool Bake::runDirect(bool bouncing) {
       unshadowed ? "receivers" : "rays",
       [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
         Gathered gathered(s_);
-        PackedHits hits;
+        transport::PackedHits hits;
         for (std::uint32_t k = begin; k < end; ++k) {
           const std::uint32_t r = order_[k];
           if (unshadowed) {
@@ -257,7 +261,7 @@ bool Bake::runBounce(int bounce) {
       runner_.run("bounce " + std::to_string(bounce), s_.receivers.size(), 1, "receivers",
                   [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
                     Gathered gathered(s_);
-                    const PackedHits* hits = kept_.of(chunk);
+                    const transport::PackedHits* hits = kept_.of(chunk);
                     for (std::uint32_t k = begin; k < end; ++k) {
                       const std::uint32_t r = order_[k];
                       if (hits)
@@ -339,7 +343,7 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
       outBands(options_.glossyBands > 0 ? options_.glossyBands : options_.bands),
       inCount(sh::coefficientCount(inBands)),
       outCount(sh::coefficientCount(outBands)),
-      rowStride(paddedRow(channels_ * inCount)),
+      rowStride(transport::paddedRow(channels_ * inCount)),
       inTable(directions_, inBands),
       cosine(sh::clampedCosine(inBands)),
       hemisphere(sh::hemisphere(inBands + outBands - 1)) {
@@ -361,19 +365,19 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
   wideTable = std::make_unique<DirectionTable>(directions, inBands + outBands - 1);
 }
 
-Result<TransferField> bake(const scene::Scene& scene, const trace::RayScene& rays,
-                           const BakeOptions& options, const Progress& progress,
-                           Findings& findings) {
-  if (Status sane = check(options); !sane) return sane.error();
-  Result<Receivers> receivers = placeReceivers(scene, options, rays.offset());
-  if (!receivers) return receivers.error();
+Result<WithFindings<TransferField>> bake(const scene::Scene& scene, const trace::RayScene& rays,
+                                         const Receivers& receivers, const BakeOptions& options,
+                                         const Progress& progress) {
+  assert(receivers.meshes.size() == scene.meshes.size());
+  if (Status sane = check(options, receivers); !sane) return sane.error();
   const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
-  const Simulation simulation(scene, rays, *receivers, directions, options,
-                              channelsFor(scene, *receivers, options.kind));
+  const Simulation simulation(scene, rays, receivers, directions, options,
+                              channelsFor(scene, receivers, options.kind));
   Bake bake(simulation, progress);
+  Findings findings;
   if (Status done = bake.run(findings); !done) return done.error();
   tellOfEmitters(scene, findings);
-  return bake.finish();
+  return WithFindings<TransferField>{bake.finish(), std::move(findings)};
 }
 
-}  // namespace lambent::transport
+}  // namespace lambent::macro

@@ -3,27 +3,18 @@
 
 #include <cmath>
 
+#include "lambent/macro/test_bake.h"
 #include "lambent/math/quadrature.h"
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/product.h"
 #include "lambent/sh/zonal.h"
-#include "lambent/transport/bake.h"
 #include "lambent/transport/direction_tables.h"
 #include "lambent/work/flush_denormals.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 namespace {
-
-TransferField bakeOrDie(const scene::Scene& scene, const BakeOptions& options) {
-  const auto rays = trace::RayScene::build(scene);
-  EXPECT_TRUE(rays);
-  Findings findings;
-  auto field = bake(scene, *rays, options, {}, findings);
-  EXPECT_TRUE(field) << field.error().message;
-  return std::move(*field);
-}
 
 /// Exit radiance of a receiver under uniform light of radiance 1: only y_00 counts, whose
 /// coefficient is √(4π).
@@ -174,10 +165,11 @@ TEST(ClosedForm, GlossyShadowedMatrixIsTheSumOverDirectionsEntryForEntry) {
   options.bands = 3;
   options.glossyBands = 5;
   options.directions = 2048;
-  Findings findings;
-  const auto field = bake(scene, *rays, options, {}, findings);
+  const auto receivers = transport::placeReceivers(scene, {}, rays->offset());
+  ASSERT_TRUE(receivers);
+  const auto field = bake(scene, *rays, *receivers, options, {});
   ASSERT_TRUE(field);
-  const MeshTransfer& plane = field->meshes[0];
+  const MeshTransfer& plane = field->value.meshes[0];
   ASSERT_EQ(plane.outBands, 5);
   ASSERT_EQ(plane.inBands, 3);
   // The very directions of the bake.
@@ -298,4 +290,4 @@ TEST(ClosedForm, GlossyBounceLooksWhereTheMirroredRayGoes) {
 }
 
 }  // namespace
-}  // namespace lambent::transport
+}  // namespace lambent::macro

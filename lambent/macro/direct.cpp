@@ -22,10 +22,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lambent/macro/simulation.h"
 #include "lambent/sh/basis.h"
-#include "lambent/transport/simulation.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 
 namespace {
 
@@ -158,4 +158,4 @@ void gatherDirect(const Simulation& simulation, std::uint32_t receiver, Gathered
   if (simulation.hasMatrix(receiver)) addMatrix(simulation, receiver, gathered, scratch);
 }
 
-}  // namespace lambent::transport
+}  // namespace lambent::macro

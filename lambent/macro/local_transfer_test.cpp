@@ -5,14 +5,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "lambent/macro/test_bake.h"
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/rotation.h"
 #include "lambent/sh/zonal.h"
-#include "lambent/transport/bake.h"
 
-namespace lambent::transport {
+namespace lambent::macro {
 namespace {
 
 scene::Material grey(float albedo) {
@@ -33,15 +33,6 @@ LocalFrames framesOf(const scene::Scene& scene, std::uint32_t mesh, std::uint64_
   return frames;
 }
 
-TransferField bakeOrDie(const scene::Scene& scene, const BakeOptions& options) {
-  const auto rays = trace::RayScene::build(scene);
-  EXPECT_TRUE(rays);
-  Findings findings;
-  auto field = bake(scene, *rays, options, {}, findings);
-  EXPECT_TRUE(field) << field.error().message;
-  return std::move(*field);
-}
-
 /// B · M for the response of a flat patch, B_i = ρ/π Â_l y_i(+z): a diffuse transfer vector.
 std::vector<double> flatPatch(const float* matrix, int bands, double albedo) {
   const int count = bands * bands;
@@ -60,8 +51,8 @@ TEST(LocalTransfer, WhereNothingIsInTheWayIsTheRotationIntoTheFrame) {
   options.kind = TransferKind::Shadowed;
   options.bands = 4;
   options.directions = 1024;
-  options.biScale = {framesOf(scene, 0)};
-  const TransferField field = bakeOrDie(scene, options);
+  const Placement placement{{}, {framesOf(scene, 0)}};
+  const TransferField field = bakeOrDie(scene, options, placement);
   const MeshTransfer& mesh = field.meshes[0];
   ASSERT_TRUE(mesh.local);
   EXPECT_TRUE(mesh.vectors.empty());
@@ -81,11 +72,11 @@ TEST(LocalTransfer, UnshadowedNeedsNoMatrices) {
   const scene::Scene scene = scene::sceneOf(scene::icosphere(1.0f, 1), grey(0.5f));
   BakeOptions options;
   options.kind = TransferKind::Unshadowed;
-  options.biScale = {framesOf(scene, 0)};
-  const TransferField field = bakeOrDie(scene, options);
+  const Placement placement{{}, {framesOf(scene, 0)}};
+  const TransferField field = bakeOrDie(scene, options, placement);
   ASSERT_TRUE(field.meshes[0].local);
   EXPECT_TRUE(field.meshes[0].local->shadowed.empty());
-  EXPECT_EQ(field.meshes[0].local->tangents, options.biScale[0].tangents);
+  EXPECT_EQ(field.meshes[0].local->tangents, placement.local[0].tangents);
 }
 
 TEST(LocalTransfer, InAClosedBlackRoomIsZero) {
@@ -93,8 +84,8 @@ TEST(LocalTransfer, InAClosedBlackRoomIsZero) {
   BakeOptions options;
   options.kind = TransferKind::Shadowed;
   options.directions = 1024;
-  options.biScale = {framesOf(scene, 0)};
-  const TransferField field = bakeOrDie(scene, options);
+  const Placement placement{{}, {framesOf(scene, 0)}};
+  const TransferField field = bakeOrDie(scene, options, placement);
   for (const float value : field.meshes[0].local->shadowed) EXPECT_NEAR(value, 0.0f, 1e-6f);
 }
 
@@ -111,9 +102,7 @@ scene::Scene cornerScene(float albedo) {
 /// Relative RMS difference between B · M of a flat patch and diffuse vectors, over mesh 0.
 double flatPatchError(const scene::Scene& scene, const BakeOptions& options) {
   const TransferField diffuse = bakeOrDie(scene, options);
-  BakeOptions local = options;
-  local.biScale = {framesOf(scene, 0)};
-  const TransferField biScale = bakeOrDie(scene, local);
+  const TransferField biScale = bakeOrDie(scene, options, {{}, {framesOf(scene, 0)}});
   const MeshTransfer& vectors = diffuse.meshes[0];
   const LocalTransfer& matrices = *biScale.meshes[0].local;
   const std::vector<float>& all =
@@ -154,8 +143,8 @@ TEST(LocalTransfer, SendsOnWhatADiffuseSurfaceSends) {
   options.bands = 3;
   options.kind = TransferKind::Interreflected;
   const TransferField diffuse = bakeOrDie(scene, options);
-  options.biScale = {framesOf(scene, 0), framesOf(scene, 2)};
-  const TransferField biScale = bakeOrDie(scene, options);
+  const TransferField biScale =
+      bakeOrDie(scene, options, {{}, {framesOf(scene, 0), framesOf(scene, 2)}});
   ASSERT_FALSE(biScale.meshes[1].local);
   ASSERT_EQ(biScale.meshes[1].vectors.size(), diffuse.meshes[1].vectors.size());
   for (std::size_t k = 0; k < diffuse.meshes[1].vectors.size(); ++k)
@@ -168,14 +157,14 @@ TEST(LocalTransfer, KeepsTheShadowedMatricesBesideIfAsked) {
   options.directions = 512;
   options.bands = 3;
   options.kind = TransferKind::Shadowed;
-  options.biScale = {framesOf(scene, 0)};
-  const TransferField shadowed = bakeOrDie(scene, options);
+  const Placement placement{{}, {framesOf(scene, 0)}};
+  const TransferField shadowed = bakeOrDie(scene, options, placement);
   options.kind = TransferKind::Interreflected;
   options.keepShadowed = true;
-  const TransferField both = bakeOrDie(scene, options);
+  const TransferField both = bakeOrDie(scene, options, placement);
   EXPECT_EQ(both.meshes[0].local->shadowed, shadowed.meshes[0].local->shadowed);
   options.bounces = 0;
-  const TransferField none = bakeOrDie(scene, options);
+  const TransferField none = bakeOrDie(scene, options, placement);
   EXPECT_EQ(none.meshes[0].local->shadowed, shadowed.meshes[0].local->shadowed);
   // Bounces add light: the mean row of band 0 under uniform light grows.
   double direct = 0.0, all = 0.0;
@@ -188,27 +177,24 @@ TEST(LocalTransfer, KeepsTheShadowedMatricesBesideIfAsked) {
 
 TEST(LocalTransfer, RefusesFramesThatDoNotFit) {
   const scene::Scene scene = cornerScene(0.7f);
-  const auto rays = trace::RayScene::build(scene);
-  ASSERT_TRUE(rays);
-  Findings findings;
-  const auto refused = [&](const BakeOptions& options) {
-    const auto field = bake(scene, *rays, options, {}, findings);
-    return !field && field.error().kind == ErrorKind::BadUsage;
-  };
   BakeOptions options;
   options.directions = 64;
-  options.biScale = {framesOf(scene, 0)};
-  options.biScale[0].mesh = 7;
-  EXPECT_TRUE(refused(options));
-  options.biScale[0].mesh = 1;
-  EXPECT_TRUE(refused(options));
-  options.biScale = {framesOf(scene, 0)};
-  options.texels = {{0, 8, 8}};
-  EXPECT_TRUE(refused(options));
-  options.texels = {};
+  const auto refused = [&](const Placement& placement) {
+    const auto field = bakeScene(scene, options, placement);
+    return !field && field.error().kind == ErrorKind::BadUsage;
+  };
+  Placement placement{{}, {framesOf(scene, 0)}};
+  placement.local[0].mesh = 7;
+  EXPECT_TRUE(refused(placement));
+  placement.local[0].mesh = 1;
+  EXPECT_TRUE(refused(placement));
+  placement.local = {framesOf(scene, 0)};
+  placement.texels = {{0, 8, 8}};
+  EXPECT_TRUE(refused(placement));
+  placement.texels = {};
   options.glossyBands = 3;
-  EXPECT_TRUE(refused(options));
+  EXPECT_TRUE(refused(placement));
 }
 
 }  // namespace
-}  // namespace lambent::transport
+}  // namespace lambent::macro
