@@ -3,41 +3,23 @@
 //
 // Simulate → Encode → Evaluate: this is Simulate; lambent/encode and lambent/shade go on.
 //
-// Results do not depend on the number of threads: a receiver is the work of one thread, and sums
-// over receivers are taken chunk by chunk in sequence.
+// Results do not depend on the number of threads: passes.h says why, and what is summed here is
+// summed chunk by chunk in sequence.
 #include "lambent/macro/bake.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cassert>
-#include <chrono>
 #include <cmath>
-#include <mutex>
+#include <span>
 #include <string>
 
 #include "lambent/macro/collect.h"
-#include "lambent/macro/simulation.h"
+#include "lambent/macro/passes.h"
 #include "lambent/math/random.h"
-#include "lambent/transport/kept_hits.h"
-#include "lambent/transport/packed_hits.h"
-#include "lambent/work/flush_denormals.h"
 
 namespace lambent::macro {
 
 namespace {
-
-constexpr std::size_t kChunk = 64;  ///< receivers that a thread takes at a time
-
-bool hasMirrors(const scene::Scene& scene) {
-  return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const scene::Mesh& mesh) {
-    return scene.materials[mesh.material].isMirror();
-  });
-}
 
 Status check(const BakeOptions& options, const Receivers& receivers) {
   const auto outside = [](const char* name, auto value, auto low, auto high) {
@@ -64,221 +46,87 @@ Status check(const BakeOptions& options, const Receivers& receivers) {
   return Status::ok();
 }
 
-/// Runs a function over chunks of receivers in parallel, says how far it is, and can be stopped.
-class PassRunner {
- public:
-  PassRunner(const Progress& progress, int threads)
-      : progress_(progress),
-        arena_(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
-                           : tbb::task_arena::automatic) {}
+/// Accumulators of all receivers, shaped as simulation.h says.
+struct Sums {
+  std::vector<float> rows, matrices;  ///< of E and M
 
-  /// work(chunk, begin, end, thread's scratch): receivers order[begin] … order[end − 1]. False:
-  /// cancelled.
-  template <class Work>
-  bool run(std::string_view stage, std::size_t receivers, std::uint64_t unitsPerReceiver,
-           std::string_view unit, const Work& work) {
-    std::atomic<std::uint64_t> done{0};
-    std::atomic<bool> stop{false};
-    std::mutex telling;
-    auto lastTold = std::chrono::steady_clock::now() - std::chrono::hours(1);
-    const auto tell = [&](bool last) {
-      if (!progress_) return;
-      const auto now = std::chrono::steady_clock::now();
-      if (!last && now - lastTold < std::chrono::milliseconds(100)) return;
-      lastTold = now;
-      if (!progress_({stage, done * unitsPerReceiver, receivers * unitsPerReceiver, unit}))
-        stop = true;
-    };
-    const std::size_t chunks = (receivers + kChunk - 1) / kChunk;
-    arena_.execute([&] {
-      tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t chunk) {
-        if (stop) return;
-        const work::FlushDenormals flush;
-        const std::size_t begin = chunk * kChunk, end = std::min(begin + kChunk, receivers);
-        work(chunk, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
-             scratches_.local());
-        done += end - begin;
-        if (const std::unique_lock lock(telling, std::try_to_lock); lock) tell(false);
-      });
-    });
-    if (!stop) tell(true);
-    return !stop;
-  }
-
-  HitCounts takeCounts() {
-    HitCounts sum;
-    for (Scratch& scratch : scratches_) {
-      sum.rays += scratch.counts.rays, sum.met += scratch.counts.met;
-      sum.backFaces += scratch.counts.backFaces, sum.inside += scratch.counts.inside;
-      scratch.counts = {};
-    }
-    return sum;
-  }
-
- private:
-  const Progress& progress_;
-  tbb::task_arena arena_;
-  tbb::enumerable_thread_specific<Scratch> scratches_;
+  Totals totals() const { return {rows.data(), matrices.data()}; }
 };
 
-/// The whole of a bake's state: sums over passes, and the pass before.
-class Bake {
- public:
-  Bake(const Simulation& simulation, const Progress& progress)
-      : s_(simulation),
-        runner_(progress, simulation.options.threads),
-        order_(transport::spatialOrder(simulation.receivers)),
-        kept_({0, (order_.size() + kChunk - 1) / kChunk}, simulation.options.hitMemory),
-        total_(s_.receivers.size() * s_.rowStride),
-        totalMatrices_(s_.matrixCount * s_.matrixStride()) {}
-
-  Status run(Findings& findings) {
-    const bool bouncing = s_.options.kind == TransferKind::Interreflected && s_.options.bounces > 0;
-    if (bouncing) {
-      exitRows_.resize(total_.size());
-      matrices_.resize(totalMatrices_.size());
-    }
-    if (!runDirect(bouncing)) return report::cancelled();
-    if (s_.options.kind != TransferKind::Unshadowed) tell(runner_.takeCounts(), findings);
-    if (!bouncing) return Status::ok();
-    for (int bounce = 1; bounce <= s_.options.bounces; ++bounce) {
-      if (!runBounce(bounce)) return report::cancelled();
-      if (passEnergy_.back() <= s_.options.energyThreshold * passEnergy_.front()) break;
-    }
-    return Status::ok();
-  }
-
-  TransferField finish() const;
-
- private:
-  bool keepsShadowed() const {
-    return s_.options.keepShadowed && s_.options.kind == TransferKind::Interreflected;
-  }
-  bool runDirect(bool bouncing);
-  bool runBounce(int bounce);
-  void castAndSort(std::uint32_t receiver, Scratch& scratch) const;
-  double store(std::uint32_t receiver, const Gathered& gathered, float* exitRows, float* matrices);
-  void sumEnergy(const std::vector<double>& chunks) {
-    double sum = 0.0;
-    for (double e : chunks) sum += e;
-    passEnergy_.push_back(sum / std::max<double>(1.0, static_cast<double>(s_.receivers.size())));
-  }
-  static void tell(const HitCounts& counts, Findings& findings);
-
-  const Simulation& s_;
-  PassRunner runner_;
-  std::vector<std::uint32_t> order_;  ///< neighbours after each other: caches stay warm
-  transport::KeptHits<transport::PackedHits> kept_;
-  std::vector<float> total_, totalMatrices_;        ///< sums over passes of E and M
-  std::vector<float> shadowed_, shadowedMatrices_;  ///< those of pass 0, if they are to be kept
-  std::vector<float> exitRows_, matrices_;          ///< the pass before: ρ/π E, M
-  std::vector<float> nextRows_, nextMatrices_;
-  std::vector<double> passEnergy_;
+/// What the passes of a bake came to.
+struct Simulated {
+  Sums sums;                       ///< over all passes
+  Sums direct;                     ///< pass 0, if it is to be kept beside
+  std::vector<double> passEnergy;  ///< TransferField::passEnergy
+  HitCounts counts;                ///< of pass 0
 };
 
-void Bake::castAndSort(std::uint32_t receiver, Scratch& scratch) const {
-  trace::castClosest(s_.rays, s_.directions, s_.receivers.origins[receiver],
-                     s_.receivers.normals[receiver], scratch.cast);
-  transport::sortHits(s_.scene, s_.rays, s_.receivers, s_.directions, receiver, scratch.cast,
-                      scratch.hits, scratch.escapes, scratch.counts);
+bool keepsShadowed(const Simulation& s) {
+  return s.options.keepShadowed && s.options.kind == TransferKind::Interreflected;
 }
 
-/// Adds a receiver's share of a pass to the totals, leaves it for the next pass, and returns its
-/// energy |ρ/π E|² (+ |M|² for a matrix).
-double Bake::store(std::uint32_t receiver, const Gathered& gathered, float* exitRows,
-                   float* matrices) {
-  float* total = total_.data() + receiver * s_.rowStride;
+/// to += from, number by number.
+Status addTo(std::vector<float>& to, const std::vector<float>& from, const work::Runner& runner) {
+  return runner.run({"sums", "numbers"}, work::Chunks(to.size(), std::size_t(1) << 15),
+                    [&](const work::Chunk& chunk) {
+                      for (std::size_t k = chunk.begin; k < chunk.end; ++k) to[k] += from[k];
+                    });
+}
+
+Result<Simulated> simulate(const Simulation& s, const Progress& progress) {
+  const work::Runner runner(progress, s.options.threads), quiet({}, s.options.threads);
+  const work::ChunkRange all = s.chunks().range();
+  const auto perReceiver = [&](double energy) {
+    return energy / std::max<double>(1.0, static_cast<double>(s.receivers.size()));
+  };
+  Simulated out;
+  out.sums.rows.resize(s.receivers.size() * s.rowStride);
+  out.sums.matrices.resize(s.matrixCount * s.matrixStride());
+  PassRows last;
+  if (s.isBouncing()) last.exit.resize(out.sums.rows.size());
+  const auto direct = directPass(s, all, runner, {out.sums.rows, last.exit, out.sums.matrices});
+  if (!direct) return direct.error();
   double energy = 0.0;
-  const bool diffuse = s_.isDiffuse(receiver);
-  for (int c = 0; c < s_.channels; ++c) {
-    const double factor = diffuse ? s_.receivers.diffuse[receiver][c] / kPi : 0.0;
-    for (std::size_t j = c * s_.inCount; j < (c + 1) * s_.inCount; ++j) {
-      const double exit = factor * gathered.incident[j];
-      energy += exit * exit;
-      if (diffuse) total[j] += static_cast<float>(gathered.incident[j]);
-      if (exitRows) exitRows[receiver * s_.rowStride + j] = static_cast<float>(exit);
-    }
+  for (const DirectChunk& chunk : direct->chunks)
+    energy += chunk.energy, out.counts += chunk.counts;
+  out.passEnergy.push_back(perReceiver(energy));
+  if (keepsShadowed(s)) out.direct = out.sums;
+  if (!s.isBouncing()) return out;
+
+  last.matrices = out.sums.matrices;
+  PassRows next{std::vector<float>(last.exit.size()), std::vector<float>(last.matrices.size())};
+  std::vector<float> incident(out.sums.rows.size());
+  for (int number = 1; number <= s.options.bounces; ++number) {
+    const auto energies = bouncePass(s, all, {number, last, direct->kept}, runner,
+                                     {incident, next.exit, next.matrices});
+    if (!energies) return energies.error();
+    energy = 0.0;
+    for (const double e : *energies) energy += e;
+    out.passEnergy.push_back(perReceiver(energy));
+    (void)addTo(out.sums.rows, incident, quiet);  // nobody listens: it is not cancelled
+    (void)addTo(out.sums.matrices, next.matrices, quiet);
+    std::swap(last, next);
+    if (out.passEnergy.back() <= s.options.energyThreshold * out.passEnergy.front()) break;
   }
-  if (s_.hasMatrix(receiver)) {
-    const std::size_t first = s_.matrixIndex[receiver] * s_.matrixStride();
-    for (std::size_t k = 0; k < s_.matrixStride(); ++k) {
-      const float value = gathered.matrix[k];
-      energy += double(value) * value;
-      totalMatrices_[first + k] += value;
-      if (matrices) matrices[first + k] = value;
-    }
-  }
-  return energy;
+  return out;
 }
 
-bool Bake::runDirect(bool bouncing) {
-  const bool unshadowed = s_.options.kind == TransferKind::Unshadowed;
-  const bool closest = bouncing || hasMirrors(s_.scene);
-  const std::size_t receivers = s_.receivers.size();
-  std::vector<double> energy((receivers + kChunk - 1) / kChunk);
-  const char* stage = unshadowed ? "unshadowed transfer"
-                      : bouncing ? "shadows and hits"
-                      : closest  ? "shadows and mirrors"
-                                 : "shadows";
-  const bool finished = runner_.run(
-      stage, receivers, unshadowed ? 1 : static_cast<std::uint64_t>(s_.options.directions) / 2,
-      unshadowed ? "receivers" : "rays",
-      [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
-        Gathered gathered(s_);
-        transport::PackedHits hits;
-        for (std::uint32_t k = begin; k < end; ++k) {
-          const std::uint32_t r = order_[k];
-          if (unshadowed) {
-            gatherUnshadowed(s_, r, gathered, scratch);
-          } else {
-            if (closest) {
-              castAndSort(r, scratch);
-            } else {
-              trace::castOcclusion(s_.rays, s_.directions, s_.receivers.origins[r],
-                                   s_.receivers.normals[r], scratch.cast);
-              scratch.escapes.clear();
-              scratch.counts.rays += scratch.cast.raysCast;
-            }
-            gatherDirect(s_, r, gathered, scratch);
-            if (bouncing) hits.add(scratch.hits, s_.directions.size());
-          }
-          energy[chunk] += store(r, gathered, bouncing ? exitRows_.data() : nullptr,
-                                 bouncing ? matrices_.data() : nullptr);
-        }
-        if (bouncing) kept_.keep(chunk, std::move(hits));
-      });
-  sumEnergy(energy);
-  if (keepsShadowed()) shadowed_ = total_, shadowedMatrices_ = totalMatrices_;
-  return finished;
+TransferField fieldOf(const Simulation& s, const Simulated& simulated) {
+  const BakeOptions& options = s.options;
+  TransferField field;
+  field.kind = options.kind;
+  field.bands = options.bands;
+  field.directions = options.kind == TransferKind::Unshadowed ? 0 : options.directions;
+  field.bounces = static_cast<int>(simulated.passEnergy.size()) - 1;
+  field.seed = options.seed;
+  field.passEnergy = simulated.passEnergy;
+  const Totals totals = simulated.sums.totals(), shadowed = simulated.direct.totals();
+  for (std::uint32_t m = 0; m < s.scene.meshes.size(); ++m)
+    field.meshes.push_back(transferOf(s, m, totals, keepsShadowed(s) ? &shadowed : nullptr));
+  return field;
 }
 
-bool Bake::runBounce(int bounce) {
-  nextRows_.resize(exitRows_.size());
-  nextMatrices_.resize(matrices_.size());
-  const PreviousPass previous{exitRows_.data(), matrices_.data()};
-  std::vector<double> energy((order_.size() + kChunk - 1) / kChunk);
-  const bool finished =
-      runner_.run("bounce " + std::to_string(bounce), s_.receivers.size(), 1, "receivers",
-                  [&](std::size_t chunk, std::uint32_t begin, std::uint32_t end, Scratch& scratch) {
-                    Gathered gathered(s_);
-                    const transport::PackedHits* hits = kept_.of(chunk);
-                    for (std::uint32_t k = begin; k < end; ++k) {
-                      const std::uint32_t r = order_[k];
-                      if (hits)
-                        hits->get(k - begin, s_.directions.size(), scratch.hits);
-                      else
-                        castAndSort(r, scratch);
-                      gatherBounce(s_, r, scratch.hits, previous, gathered, scratch);
-                      energy[chunk] += store(r, gathered, nextRows_.data(), nextMatrices_.data());
-                    }
-                  });
-  exitRows_.swap(nextRows_);
-  matrices_.swap(nextMatrices_);
-  sumEnergy(energy);
-  return finished;
-}
-
-void Bake::tell(const HitCounts& counts, Findings& findings) {
+void tellOfHits(const HitCounts& counts, Findings& findings) {
   const auto percent = [](std::uint64_t part, std::uint64_t whole) {
     return std::to_string(std::lround(1000.0 * static_cast<double>(part) /
                                       static_cast<double>(std::max<std::uint64_t>(whole, 1))) /
@@ -312,58 +160,7 @@ void tellOfEmitters(const scene::Scene& scene, Findings& findings) {
                         std::uint64_t(emitters)});
 }
 
-TransferField Bake::finish() const {
-  const BakeOptions& options = s_.options;
-  TransferField field;
-  field.kind = options.kind;
-  field.bands = options.bands;
-  field.directions = options.kind == TransferKind::Unshadowed ? 0 : options.directions;
-  field.bounces = static_cast<int>(passEnergy_.size()) - 1;
-  field.seed = options.seed;
-  field.passEnergy = passEnergy_;
-  const Totals totals{total_.data(), totalMatrices_.data()};
-  const Totals shadowed{shadowed_.data(), shadowedMatrices_.data()};
-  for (std::uint32_t m = 0; m < s_.scene.meshes.size(); ++m)
-    field.meshes.push_back(transferOf(s_, m, totals, keepsShadowed() ? &shadowed : nullptr));
-  return field;
-}
-
 }  // namespace
-
-Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
-                       const Receivers& receivers_, const trace::DirectionSet& directions_,
-                       const BakeOptions& options_, int channels_)
-    : scene(scene_),
-      rays(rays_),
-      receivers(receivers_),
-      directions(directions_),
-      options(options_),
-      channels(channels_),
-      inBands(options_.bands),
-      outBands(options_.glossyBands > 0 ? options_.glossyBands : options_.bands),
-      inCount(sh::coefficientCount(inBands)),
-      outCount(sh::coefficientCount(outBands)),
-      rowStride(transport::paddedRow(channels_ * inCount)),
-      inTable(directions_, inBands),
-      cosine(sh::clampedCosine(inBands)),
-      hemisphere(sh::hemisphere(inBands + outBands - 1)) {
-  matrixIndex.assign(receivers.size(), kNoMatrix);
-  diffuseReceiver_.assign(receivers.size(), 0);
-  lobeReceiver_.assign(receivers.size(), 0);
-  for (const Receivers::PerMesh& mesh : receivers.meshes)
-    for (std::uint32_t r = mesh.first; r < mesh.first + mesh.count; ++r) {
-      diffuseReceiver_[r] = mesh.isDiffuse;
-      lobeReceiver_[r] = mesh.isGlossy;
-      const bool local = mesh.local && options.kind != TransferKind::Unshadowed;
-      if (mesh.isGlossy || local) matrixIndex[r] = static_cast<std::uint32_t>(matrixCount++);
-    }
-  if (matrixCount == 0) {
-    outCount = 0;  // no matrices to hold
-    return;
-  }
-  outTable = std::make_unique<DirectionTable>(directions, outBands);
-  wideTable = std::make_unique<DirectionTable>(directions, inBands + outBands - 1);
-}
 
 Result<WithFindings<TransferField>> bake(const scene::Scene& scene, const trace::RayScene& rays,
                                          const Receivers& receivers, const BakeOptions& options,
@@ -373,11 +170,12 @@ Result<WithFindings<TransferField>> bake(const scene::Scene& scene, const trace:
   const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
   const Simulation simulation(scene, rays, receivers, directions, options,
                               channelsFor(scene, receivers, options.kind));
-  Bake bake(simulation, progress);
+  const Result<Simulated> simulated = simulate(simulation, progress);
+  if (!simulated) return simulated.error();
   Findings findings;
-  if (Status done = bake.run(findings); !done) return done.error();
+  if (options.kind != TransferKind::Unshadowed) tellOfHits(simulated->counts, findings);
   tellOfEmitters(scene, findings);
-  return WithFindings<TransferField>{bake.finish(), std::move(findings)};
+  return WithFindings<TransferField>{fieldOf(simulation, *simulated), std::move(findings)};
 }
 
 }  // namespace lambent::macro

@@ -25,7 +25,7 @@ namespace {
 /// Adds to exit ([c][n²], doubles) what q's lobe sends along −arrival:
 /// k_q Σ_i ĝ_i y_i(R) M_ij, times weight for each channel.
 void addLobe(const Simulation& simulation, std::uint32_t q, const Vec3& arrival, const Rgb& weight,
-             const PreviousPass& previous, Scratch& scratch, double* exit) {
+             const PassRows& previous, Scratch& scratch, double* exit) {
   const Receivers& receivers = simulation.receivers;
   const Vec3 reflected = math::reflectAbout(-arrival, receivers.normals[q]);
   scratch.outFloat.resize(simulation.outCount);
@@ -37,7 +37,7 @@ void addLobe(const Simulation& simulation, std::uint32_t q, const Vec3& arrival,
   scratch.ids.resize(simulation.outCount);
   for (std::uint32_t i = 0; i < simulation.outCount; ++i) scratch.ids[i] = i;
   scratch.y.assign(simulation.rowStride, 0.0);
-  addRows({previous.matrices + simulation.matrixIndex[q] * simulation.matrixStride(),
+  addRows({previous.matrices.data() + simulation.matrixIndex[q] * simulation.matrixStride(),
            simulation.rowStride},
           scratch.ids, scratch.outFloat, scratch.y.data());
   for (int c = 0; c < simulation.channels; ++c) {
@@ -59,9 +59,9 @@ void prepareLobe(const Simulation& simulation, float exponent, Scratch& scratch)
 
 /// All that q sends along −arrival, added to exit.
 void addExit(const Simulation& simulation, std::uint32_t q, const Vec3& arrival, const Rgb& weight,
-             const PreviousPass& previous, Scratch& scratch, double* exit) {
+             const PassRows& previous, Scratch& scratch, double* exit) {
   if (simulation.isDiffuse(q)) {
-    const float* row = previous.exitRows + q * simulation.rowStride;
+    const float* row = previous.exit.data() + q * simulation.rowStride;
     for (int c = 0; c < simulation.channels; ++c)
       for (std::size_t j = 0; j < simulation.inCount; ++j)
         exit[c * simulation.inCount + j] += double(weight[c]) * row[c * simulation.inCount + j];
@@ -74,7 +74,7 @@ void addExit(const Simulation& simulation, std::uint32_t q, const Vec3& arrival,
 
 /// A receiver without a matrix needs no exits one by one: rows are summed where they lie.
 void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
-                      const ReceiverHits& hits, const PreviousPass& previous, Gathered& gathered,
+                      const ReceiverHits& hits, const PassRows& previous, Gathered& gathered,
                       Scratch& scratch) {
   const Vec3& normal = simulation.receivers.normals[receiver];
   const auto weight = static_cast<float>(simulation.directions.weight());
@@ -83,7 +83,7 @@ void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
   for (std::size_t h = 0; h < hits.receiver.size(); ++h)
     scratch.weights[h] = weight * normal.dot(simulation.directions[hits.direction[h]]);
   // Rows of receivers that are not diffuse are zero: they need no exception here.
-  addRows({previous.exitRows, simulation.rowStride}, hits.receiver, scratch.weights,
+  addRows({previous.exit.data(), simulation.rowStride}, hits.receiver, scratch.weights,
           gathered.incident.data());
   if (!noLobes)
     for (std::size_t h = 0; h < hits.receiver.size(); ++h) {
@@ -103,7 +103,7 @@ void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
 
 /// A receiver with a matrix (and perhaps a vector): exits X and harmonics Y of all hits, then YᵀX.
 void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
-                      const ReceiverHits& hits, const PreviousPass& previous, Gathered& gathered,
+                      const ReceiverHits& hits, const PassRows& previous, Gathered& gathered,
                       Scratch& scratch) {
   const Vec3& normal = simulation.receivers.normals[receiver];
   const auto weight = static_cast<float>(simulation.directions.weight());
@@ -148,7 +148,7 @@ void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
 }  // namespace
 
 void gatherBounce(const Simulation& simulation, std::uint32_t receiver, const ReceiverHits& hits,
-                  const PreviousPass& previous, Gathered& gathered, Scratch& scratch) {
+                  const PassRows& previous, Gathered& gathered, Scratch& scratch) {
   std::fill(gathered.incident.begin(), gathered.incident.end(), 0.0);
   if (simulation.hasMatrix(receiver)) {
     std::fill(gathered.matrix.begin(), gathered.matrix.end(), 0.0f);

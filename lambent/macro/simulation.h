@@ -18,6 +18,7 @@
 #include "lambent/transport/direction_tables.h"
 #include "lambent/transport/hits.h"
 #include "lambent/transport/receivers.h"
+#include "lambent/work/chunks.h"
 
 namespace lambent::macro {
 
@@ -41,6 +42,7 @@ struct Simulation {
   const Receivers& receivers;
   const trace::DirectionSet& directions;
   BakeOptions options;
+  std::vector<std::uint32_t> order;  ///< receivers, neighbours after each other: caches stay warm
 
   int channels = 1;
   int inBands = 5, outBands = 5;
@@ -61,6 +63,12 @@ struct Simulation {
   Simulation(const scene::Scene& scene, const trace::RayScene& rays, const Receivers& receivers,
              const trace::DirectionSet& directions, const BakeOptions& options, int channels);
 
+  /// Of receivers in the sequence of `order`: what a thread takes at a time.
+  work::Chunks chunks() const { return work::Chunks(order.size(), 64); }
+  /// Whether passes follow pass 0.
+  bool isBouncing() const {
+    return options.kind == TransferKind::Interreflected && options.bounces > 0;
+  }
   std::size_t matrixStride() const { return outCount * rowStride; }
   bool hasMatrix(std::uint32_t receiver) const { return matrixIndex[receiver] != kNoMatrix; }
   /// Whether it sends light on by a lobe: glossy surfaces alone, whose matrices are before the
@@ -107,14 +115,14 @@ void gatherDirect(const Simulation& simulation, std::uint32_t receiver, Gathered
 std::vector<float> inTangentFrames(const Simulation& simulation, const Receivers::PerMesh& place,
                                    const float* matrices, int channels);
 
-/// The light that pass b−1 left on all receivers: exit rows ρ/π E (rowStride each), matrices M.
-struct PreviousPass {
-  const float* exitRows;
-  const float* matrices;
+/// What a pass left at all receivers, for the next one.
+struct PassRows {
+  std::vector<float> exit;      ///< [receiver][rowStride]: ρ/π E, what a diffuse one sends on
+  std::vector<float> matrices;  ///< [matrix][matrixStride()]: M
 };
 
 /// Pass b ≥ 1 from `hits`.
 void gatherBounce(const Simulation& simulation, std::uint32_t receiver, const ReceiverHits& hits,
-                  const PreviousPass& previous, Gathered& gathered, Scratch& scratch);
+                  const PassRows& previous, Gathered& gathered, Scratch& scratch);
 
 }  // namespace lambent::macro

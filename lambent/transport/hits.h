@@ -38,6 +38,13 @@ struct HitCounts {
   std::uint64_t met = 0;        ///< anything at all
   std::uint64_t backFaces = 0;  ///< blocked: from behind, surfaces give no light
   std::uint64_t inside = 0;     ///< receivers most of whose hits are back faces
+
+  HitCounts& operator+=(const HitCounts& other) {
+    rays += other.rays, met += other.met;
+    backFaces += other.backFaces, inside += other.inside;
+    return *this;
+  }
+  bool operator==(const HitCounts&) const = default;
 };
 
 /// Sorts what a cast met from receiver `self` into hits and escapes. Reproducible: cast again, the

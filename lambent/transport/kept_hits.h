@@ -20,6 +20,12 @@ class KeptHits {
   /// Of the chunks of a range, in at most so many bytes.
   KeptHits(work::ChunkRange chunks, std::size_t bytes)
       : chunks_(chunks), budget_(bytes), kept_(chunks.size()) {}
+  /// Not while chunks are being kept.
+  KeptHits(KeptHits&& other) noexcept
+      : chunks_(other.chunks_),
+        budget_(other.budget_),
+        used_(other.used_.load()),
+        kept_(std::move(other.kept_)) {}
 
   /// Keeps what a chunk met, if there is room. Once for each chunk of the range, from any thread.
   void keep(std::size_t chunk, Hits&& hits) {
