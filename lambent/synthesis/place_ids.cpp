@@ -8,10 +8,8 @@
 #include "lambent/synthesis/place_ids.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <string>
 
 #include <tbb/blocked_range.h>
@@ -20,6 +18,7 @@
 #include <nanoflann.hpp>
 
 #include "lambent/scene/texel_map.h"
+#include "lambent/work/runner.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -89,6 +88,20 @@ void giveEveryChartATexel(const atlas::Atlas& atlas, scene::TexelMap& map) {
   }
 }
 
+/// The covered texels, block by block: texels that lie together need the same parts of the tree.
+std::vector<std::uint32_t> coveredByBlocks(const scene::TexelMap& map) {
+  constexpr int kBlock = 32;
+  std::vector<std::uint32_t> texels;
+  for (int y0 = 0; y0 < map.height; y0 += kBlock)
+    for (int x0 = 0; x0 < map.width; x0 += kBlock)
+      for (int y = y0; y < std::min(map.height, y0 + kBlock); ++y)
+        for (int x = x0; x < std::min(map.width, x0 + kBlock); ++x) {
+          const std::size_t texel = std::size_t(y) * map.width + x;
+          if (map.covered(texel)) texels.push_back(static_cast<std::uint32_t>(texel));
+        }
+  return texels;
+}
+
 std::uint16_t wrapped(double place) {
   return static_cast<std::uint16_t>(
       static_cast<std::int64_t>(std::llround((place - std::floor(place)) * 65536.0)) & 0xffff);
@@ -114,11 +127,8 @@ Result<IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
 
   scene::TexelMap map = scene::texelMap(atlas.mesh, options.size, options.size);
   giveEveryChartATexel(atlas, map);
-  std::vector<std::uint8_t> full(map.size());
-  std::size_t covered = 0;
-  for (std::size_t texel = 0; texel < map.size(); ++texel)
-    covered += full[texel] = map.covered(texel) ? 1 : 0;
-  if (covered == 0)
+  const std::vector<std::uint32_t> covered = coveredByBlocks(map);
+  if (covered.empty())
     return report::badInput("the atlas covers no texel of a " + std::to_string(options.size) + "×" +
                             std::to_string(options.size) + " map; ask for a larger one");
 
@@ -130,53 +140,39 @@ Result<IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
   IdMap ids;
   ids.width = ids.height = options.size;
   ids.ids.resize(2 * map.size());
-  constexpr int kBlock = 32;  // texels that lie together need the same parts of the tree
-  const int blocks = (options.size + kBlock - 1) / kBlock;
-  std::atomic<std::uint64_t> done = 0;
-  std::atomic<bool> stopped = false;
-  std::mutex reporting;
-  const auto placeBlock = [&](int block, Search& search) {
-    std::uint64_t placed = 0;
-    const int x0 = block % blocks * kBlock, y0 = block / blocks * kBlock;
-    for (int y = y0; y < std::min(options.size, y0 + kBlock); ++y)
-      for (int x = x0; x < std::min(options.size, x0 + kBlock); ++x) {
-        const std::size_t texel = std::size_t(y) * options.size + x;
-        if (!full[texel]) continue;
-        ++placed;
-        const scene::Triangle& corners = atlas.mesh.triangles[map.triangle[texel]];
-        const Vec2 b = map.barycentric[texel];
-        const float weights[3] = {1.0f - b.x() - b.y(), b.x(), b.y()};
-        Vec3 at = Vec3::Zero(), normal = Vec3::Zero();
-        for (int k = 0; k < 3; ++k) {
-          at += weights[k] * atlas.mesh.positions[corners[k]];
-          normal += weights[k] * atlas.mesh.normals[corners[k]];
-        }
-        if (normal.squaredNorm() > 0.0f)
-          normal.normalize();
-        else
-          normal = atlas.mesh.normals[corners[0]];
-        const std::uint32_t v =
-            shoot(tree, mesh, at, normal, static_cast<std::size_t>(options.neighbours), search);
-        const Vec3 offset = at - mesh.positions[v];
-        const Vec3& tangent = mesh.tangents[v];
-        const Vec3 across = mesh.normals[v].cross(tangent);
-        ids.ids[2 * texel] = wrapped(double(coordinates[v].x()) +
-                                     double(offset.dot(tangent)) / options.patchSize.x());
-        ids.ids[2 * texel + 1] = wrapped(double(coordinates[v].y()) +
-                                         double(offset.dot(across)) / options.patchSize.y());
-      }
-    done += placed;
-    if (!progress || !reporting.try_lock()) return;
-    const std::lock_guard<std::mutex> lock(reporting, std::adopt_lock);
-    if (!progress({"id map", done, covered, "texels"})) stopped = true;
+  const auto place = [&](std::uint32_t texel, Search& search) {
+    const scene::Triangle& corners = atlas.mesh.triangles[map.triangle[texel]];
+    const Vec2 b = map.barycentric[texel];
+    const float weights[3] = {1.0f - b.x() - b.y(), b.x(), b.y()};
+    Vec3 at = Vec3::Zero(), normal = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      at += weights[k] * atlas.mesh.positions[corners[k]];
+      normal += weights[k] * atlas.mesh.normals[corners[k]];
+    }
+    if (normal.squaredNorm() > 0.0f)
+      normal.normalize();
+    else
+      normal = atlas.mesh.normals[corners[0]];
+    const std::uint32_t v =
+        shoot(tree, mesh, at, normal, static_cast<std::size_t>(options.neighbours), search);
+    const Vec3 offset = at - mesh.positions[v];
+    const Vec3& tangent = mesh.tangents[v];
+    const Vec3 across = mesh.normals[v].cross(tangent);
+    ids.ids[2 * texel] =
+        wrapped(double(coordinates[v].x()) + double(offset.dot(tangent)) / options.patchSize.x());
+    ids.ids[2 * texel + 1] =
+        wrapped(double(coordinates[v].y()) + double(offset.dot(across)) / options.patchSize.y());
   };
-  tbb::parallel_for(tbb::blocked_range<int>(0, blocks * blocks), [&](const auto& range) {
-    Search search;
-    for (int block = range.begin(); block < range.end() && !stopped; ++block)
-      placeBlock(block, search);
-  });
-  if (stopped) return report::cancelled();
+  const work::Runner runner(progress, options.threads);
+  const Status placed = runner.run({"id map", "texels"}, work::Chunks(covered.size(), 1024),
+                                   Search{}, [&](const work::Chunk& chunk, Search& search) {
+                                     for (std::size_t k = chunk.begin; k < chunk.end; ++k)
+                                       place(covered[k], search);
+                                   });
+  if (!placed) return placed.error();
 
+  std::vector<std::uint8_t> full(map.size());
+  for (const std::uint32_t texel : covered) full[texel] = 1;
   const std::vector<std::uint32_t> nearest = scene::nearestFull(options.size, options.size, full);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, map.size()), [&](const auto& range) {
     for (std::size_t texel = range.begin(); texel < range.end(); ++texel) {

@@ -15,6 +15,7 @@ struct IdMapOptions {
   int size = 2048;                    ///< texels a side
   int neighbours = 20;                ///< k of normal shooting
   Vec2 patchSize = Vec2(0.1f, 0.1f);  ///< metres, as in SynthesisOptions
+  int threads = 0;                    ///< 0: all. No effect on the map
 };
 
 /// Scan conversion of the atlas, normal shooting to the meso-mesh, and dilation of charts into all
