@@ -38,7 +38,8 @@ double write(const Simulation& s, std::uint32_t receiver, const Gathered& gather
     for (std::size_t j = c * s.inCount; j < (c + 1) * s.inCount; ++j) {
       const double exit = factor * gathered.incident[j];
       energy += exit * exit;
-      incident[j] = diffuse ? static_cast<float>(gathered.incident[j]) : 0.0f;
+      // Closed forms yield −0 as well, and sums over passes, which begin at 0, do not.
+      incident[j] = 0.0f + (diffuse ? static_cast<float>(gathered.incident[j]) : 0.0f);
       if (exits) exits[j] = static_cast<float>(exit);
     }
   }
