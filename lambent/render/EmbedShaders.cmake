@@ -1,6 +1,6 @@
 # cmake -D OUTPUT=… -D SHADERS=a.glsl|b.glsl -P EmbedShaders.cmake: shader texts → one C++ source, so
 # that an installed library looks for no file.
-set(text "// Made from shaders/*.glsl by EmbedShaders.cmake.\n")
+set(text "// Made from shaders/ by EmbedShaders.cmake.\n")
 string(APPEND text "#include \"lambent/render/shader_sources.h\"\n\nnamespace lambent::render {\n\n")
 string(APPEND text "std::string_view shaderSource(std::string_view name) {\n")
 string(REPLACE "|" ";" SHADERS "${SHADERS}")

@@ -1,4 +1,4 @@
-// The texts of shaders/*.glsl, built into the library.
+// The texts of shaders/ and shaders/opengl/, built into the library.
 #pragma once
 
 #include <string_view>

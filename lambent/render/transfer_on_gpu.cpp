@@ -88,7 +88,7 @@ Numbers asFloatsIfScalesDiffer(const Numbers& numbers, std::size_t columns) {
   return encode::encode(encode::decode(numbers), Encoding::Float32);
 }
 
-/// Coefficients of a light as shaders/numbers.glsl reads them: filled up to four.
+/// Coefficients of a light as opengl/numbers.glsl reads them: filled up to four.
 int filledUp(int coefficients) {
   return (coefficients + 3) / 4 * 4;
 }

@@ -20,7 +20,7 @@
 
 namespace lambent::render {
 
-/// The line that tells shaders how numbers are stored (shaders/numbers.glsl).
+/// The line that tells shaders how numbers are stored (opengl/numbers.glsl).
 std::string numbersDefine(encode::Encoding encoding);
 
 /// Matrices or vectors as they are stored, and what becomes of their products with the light.
@@ -36,7 +36,7 @@ struct ProductShape {
 /// make these anew (nothing, if transfer streams).
 struct Relit {
   struct Chunk {
-    Buffer numbers, scales;            ///< as shaders/numbers.glsl reads them; scales of bytes only
+    Buffer numbers, scales;            ///< as numbers.glsl reads them; scales of bytes only
     std::size_t first = 0, count = 0;  ///< receivers
   };
   std::vector<std::uint32_t> receivers;  ///< the mesh's numbers of them

@@ -1,5 +1,5 @@
 // Exit radiance of a surface with meso-structure: B(q, v) · (M L), sloan2003biscale eq. 4, as
-// shaders/patch.frag.glsl and shade::LitPatch.
+// shaders/opengl/patch.frag.glsl and shade::LitPatch.
 //
 // Numbers of a position and view are coefficient after coefficient, each R, G, B, in groups of
 // four: RGBR GBRG BRGB … So three sums of every third group hold each channel in known places.

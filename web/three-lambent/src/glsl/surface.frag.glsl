@@ -1,4 +1,4 @@
-// Exit radiance of a relit surface, as shaders/surface.frag.glsl: at receivers' results, linear
+// Exit radiance of a relit surface, as shaders/opengl/surface.frag.glsl: at receivers' results, linear
 // between them. Surfaces seen from behind are black.
 //
 // Before this text stand: #define LAMBENT_KIND 0 vertices, 1 texels, 2 mirror, 3 black, 4 unlit;
