@@ -1,7 +1,12 @@
-// lambent/shade/rtt_footprint.h in GLSL: where its formulas are explained. A table test holds the
-// two together.
-//
-// Before this text stand: #define LAMBENT_MOST_PROBES, LAMBENT_LEAST_COSINE.
+// How much of a patch a sub-sample of a picture stands for, and the reads that average about as much:
+// lambent/shade/rtt_footprint.h, where the formulas are explained.
+
+const int kMostProbes = 4;
+const float kLeastCosine = 1.0 / 64.0;
+
+struct FootprintAxes {
+  vec3 longer, shorter;
+};
 
 struct Probes {
   float level;
@@ -9,13 +14,12 @@ struct Probes {
   vec2 stride;
 };
 
-void footprintAxes(mat3 worldFromPatch, vec3 toViewer, float width, out vec3 longer,
-                   out vec3 shorter) {
+FootprintAxes footprintAxes(mat3 worldFromPatch, vec3 toViewer, float width) {
   float across = length(toViewer.xy);
   vec2 along = across > 1e-6 ? toViewer.xy / across : vec2(1.0, 0.0);
-  longer = (along.x * worldFromPatch[0] + along.y * worldFromPatch[1]) *
-           (width / max(toViewer.z, LAMBENT_LEAST_COSINE));
-  shorter = (along.x * worldFromPatch[1] - along.y * worldFromPatch[0]) * width;
+  vec3 longer = along.x * worldFromPatch[0] + along.y * worldFromPatch[1];
+  vec3 shorter = along.x * worldFromPatch[1] - along.y * worldFromPatch[0];
+  return FootprintAxes(longer * (width / max(toViewer.z, kLeastCosine)), shorter * width);
 }
 
 Probes probesOf(vec2 longer, vec2 shorter, vec2 positions) {
@@ -29,10 +33,10 @@ Probes probesOf(vec2 longer, vec2 shorter, vec2 positions) {
   }
   Probes probes = Probes(0.0, 1, vec2(0.0));
   if (!(a > 1.0)) return probes;
-  float width = max(max(b, 1.0), a / float(LAMBENT_MOST_PROBES));
+  float width = max(max(b, 1.0), a / float(kMostProbes));
   float beyond = a * a - width * width;
   if (beyond > 0.04 * width * width) {
-    probes.count = clamp(int(ceil(a / width)), 2, LAMBENT_MOST_PROBES);
+    probes.count = clamp(int(ceil(a / width)), 2, kMostProbes);
     float n = float(probes.count);
     probes.stride = along * (sqrt(beyond / (n * n - 1.0)) / a);
   }

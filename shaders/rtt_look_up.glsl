@@ -2,7 +2,7 @@
 // covers averaged if LAMBENT_FILTER is 1.
 //
 // Before this text stand: #define LAMBENT_FILTER 0 or 1; view_square.glsl, rtt_footprint.glsl. After
-// it: response(), which every renderer reads in its own way.
+// it: response() (rtt_response.glsl).
 
 uniform int views;
 uniform int levelCount;
@@ -71,5 +71,16 @@ vec3 filtered(vec2 q, Probes probes) {
     }
   }
   return sum / float(probes.count);
+}
+
+// All that a sub-sample covers: `width` is what it sees across its ray, metres; along `x` and `y` the
+// surface's q changes (shade::PatchGradient).
+vec3 averaged(vec2 q, mat3 worldFromPatch, vec3 toViewer, float width, vec3 x, vec3 y) {
+  FootprintAxes axes = footprintAxes(worldFromPatch, toViewer, width);
+  Probes probes = probesOf(vec2(dot(x, axes.longer), dot(y, axes.longer)),
+                           vec2(dot(x, axes.shorter), dot(y, axes.shorter)), vec2(levels[0].xy));
+  // What filtered() would give, without its loops.
+  if (probes.level == 0.0 && probes.count == 1) return nearest(q);
+  return filtered(q, probes);
 }
 #endif

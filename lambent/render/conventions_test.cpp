@@ -219,10 +219,9 @@ TEST(ConventionTable, PicturesOfEnvironmentsLieAsItSays) {
   const Result<GlContext> context = GlContext::create();
   ASSERT_TRUE(context) << context.error().message;
   const Json& entries = table().at("latLong");
-  const std::vector<float> found =
-      test::onGpu(environmentDefines() + std::string(shaderSource("environment.glsl")),
-                  "outputs[p] = vec4(latLongFromDirection(inputs[p][0].xyz), 0.0, 0.0);\n",
-                  inputsOf(entries, "direction"));
+  const std::vector<float> found = test::onGpu(
+      environmentSource(), "outputs[p] = vec4(latLongFromDirection(inputs[p][0].xyz), 0.0, 0.0);\n",
+      inputsOf(entries, "direction"));
   // The library's look-up: red is u, green is v, away from where they wrap.
   image::Image picture(512, 256);
   for (int y = 0; y < 256; ++y)

@@ -7,13 +7,13 @@
 #include <tbb/parallel_for.h>
 
 #include "lambent/math/directions.h"
+#include "lambent/render/shader_sources.h"
 
 namespace lambent::render {
 namespace {
 
 using light::Environment;
 
-constexpr std::size_t kMostDiscs = 16;
 // Twice the usual size of such pictures, so that resampling one costs no sharpness that a curved
 // mirror could show.
 constexpr int kSharpWidth = 2048;
@@ -43,8 +43,9 @@ Environment discOf(const Environment::Parts::Disc& disc) {
 
 }  // namespace
 
-std::string environmentDefines() {
-  return fmt::format("#define LAMBENT_MOST_DISCS {}\n", kMostDiscs);
+std::string environmentSource() {
+  return std::string(shaderSource("environment.glsl")) +
+         std::string(shaderSource("environment_maps.glsl"));
 }
 
 Status GlEnvironment::set(const Environment& environment, int largestTexture) {

@@ -1,6 +1,7 @@
 // What mirrors and the background show, on the GPU (shaders/environment.glsl).
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -9,14 +10,19 @@
 
 namespace lambent::render {
 
-/// What shaders/environment.glsl wants before it.
-std::string environmentDefines();
+/// What a program that shows an environment includes: shaders/environment.glsl, and where its maps
+/// lie.
+std::string environmentSource();
+
+/// As in shaders/environment.glsl.
+inline constexpr std::size_t kMostDiscs = 16;
 
 class GlEnvironment {
  public:
-  /// Its image (or the first of several) and up to 16 discs are shown as they are; what else it
-  /// has is gathered in a picture of 2048×1024 (smooth lights: 512×256). Uploads what it must: an
-  /// environment whose image is there already costs next to nothing, turned or with other discs.
+  /// Its image (or the first of several) and up to kMostDiscs discs are shown as they are; what
+  /// else it has is gathered in a picture of 2048×1024 (smooth lights: 512×256). Uploads what it
+  /// must: an environment whose image is there already costs next to nothing, turned or with other
+  /// discs.
   Status set(const light::Environment& environment, int largestTexture);
   /// For the program that draws next, which includes environment.glsl.
   void bind(const Program& program, const Mat3& environmentFromWorld) const;

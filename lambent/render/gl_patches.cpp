@@ -132,11 +132,6 @@ void pack(const float* numbers, int stride, Encoding encoding, std::span<const f
 
 }  // namespace
 
-std::string footprintDefines() {
-  return fmt::format("#define LAMBENT_MOST_PROBES {}\n#define LAMBENT_LEAST_COSINE {:#}\n",
-                     shade::kMostProbes, shade::kLeastCosine);
-}
-
 Result<GlPatches::Rtt> GlPatches::makeRtt(int index, bool filter) const {
   const EncodedRtt& from = asset_->transfer.rtts[std::size_t(index)];
   const Encoding encoding = from.values.encoding;
@@ -219,19 +214,20 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
   const bool interpolated = 4 * (groupsOf(bands) + 3) <= mostVaryings;
   const std::string defines = fmt::format(
       "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
-      "{}\n{}\n{}",
+      "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_RTT_PLACE int\n#define LAMBENT_ID_MAP 1\n"
+      "{}\n{}\n",
       groupsOf(bands), interpolated, filter, numbersDefine(encoding),
-      unrolledDefines(bands, encoding), footprintDefines());
+      unrolledDefines(bands, encoding));
+  std::vector<std::string> fragment = {defines};
+  for (const char* name :
+       {"incident.glsl", "corner_weights.glsl", "rtt_response.glsl", "view_square.glsl",
+        "rtt_footprint.glsl", "rtt_look_up.glsl", "tangent_frame.glsl", "shading_normal.glsl",
+        "patch_place.glsl", "patch.frag.glsl"})
+    fragment.emplace_back(shaderSource(name));
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",
                                     {defines, std::string(shaderSource("patch.vert.glsl"))}},
-                                   {GL_FRAGMENT_SHADER,
-                                    "patch.frag.glsl",
-                                    {defines, std::string(shaderSource("view_square.glsl")),
-                                     std::string(shaderSource("rtt_footprint.glsl")),
-                                     std::string(shaderSource("tangent_frame.glsl")),
-                                     std::string(shaderSource("rtt_look_up.glsl")),
-                                     std::string(shaderSource("patch.frag.glsl"))}}};
+                                   {GL_FRAGMENT_SHADER, "patch.frag.glsl", std::move(fragment)}};
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();
   programs_.emplace(key, std::move(*program));

@@ -17,9 +17,6 @@
 
 namespace lambent::render {
 
-/// What shaders/rtt_footprint.glsl wants before it.
-std::string footprintDefines();
-
 struct GlPatchOptions {
   std::size_t largestBlock = 0;  ///< bytes of one storage buffer
   int largestTexture = 0;        ///< side, in texels

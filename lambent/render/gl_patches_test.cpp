@@ -195,7 +195,7 @@ TEST(ShaderConventions, ProbesEqualTheLibrarys) {
     inputs.resize(inputs.size() + 10);
   }
   const std::vector<float> probes =
-      test::onGpu(footprintDefines() + std::string(shaderSource("rtt_footprint.glsl")),
+      test::onGpu(std::string(shaderSource("rtt_footprint.glsl")),
                   "Probes found = probesOf(inputs[p][0].xy, inputs[p][0].zw, inputs[p][1].xy);\n"
                   "outputs[p] = vec4(found.level, float(found.count), found.stride);\n",
                   inputs);

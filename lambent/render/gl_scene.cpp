@@ -108,20 +108,25 @@ Status GlScene::addProgram(SurfaceKind kind, int lobeBands) {
   // Position, normal, colour, texture coordinates and exit radiance are interpolated as well.
   GLint mostVaryings = 0;
   glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
-  const bool interpolated = groups > 0 && 4 * (groups + 4) <= mostVaryings;
+  const bool interpolated =
+      kind == SurfaceKind::Vertices && groups > 0 && 4 * (groups + 4) <= mostVaryings;
   std::string defines = fmt::format(
-      "#define LAMBENT_KIND {}\n#define LAMBENT_LOBE_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
-      "#define LAMBENT_EACH_GROUP(DO)",
+      "#define LAMBENT_KIND {}\n#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
+      "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_MAP 1\n#define LAMBENT_EACH_GROUP(DO)",
       int(kind), groups, interpolated);
   for (int i = 0; i < groups; ++i) defines += fmt::format(" DO({})", i);
   Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {defines}};
-  if (lobeBands > 0) fragment.parts.push_back(harmonicsSource(lobeBands));
-  fragment.parts.emplace_back(shaderSource("base_color.glsl"));
-  if (kind == SurfaceKind::Mirror) {
-    fragment.parts.push_back(environmentDefines());
-    fragment.parts.emplace_back(shaderSource("environment.glsl"));
+  const auto include = [&](std::string_view name) {
+    fragment.parts.emplace_back(shaderSource(name));
+  };
+  if (lobeBands > 0) {
+    fragment.parts.push_back(harmonicsSource(lobeBands));
+    for (const char* name : {"incident.glsl", "lobe.glsl"}) include(name);
   }
-  fragment.parts.emplace_back(shaderSource("surface.frag.glsl"));
+  if (kind == SurfaceKind::Mirror) fragment.parts.push_back(environmentSource());
+  for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
+                           "texel_receivers.glsl", "corner_weights.glsl", "surface.frag.glsl"})
+    include(name);
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "surface.vert.glsl",
                                     {defines, std::string(shaderSource("surface.vert.glsl"))}},
@@ -259,7 +264,8 @@ Result<GlScene> GlScene::make(const asset::Asset& asset, const GlSceneOptions& o
       {GL_VERTEX_SHADER, "unlit.vert.glsl", {std::string(shaderSource("unlit.vert.glsl"))}},
       {GL_FRAGMENT_SHADER,
        "unlit.frag.glsl",
-       {std::string(shaderSource("base_color.glsl")),
+       {"#define LAMBENT_MAP 1", std::string(shaderSource("base_color.glsl")),
+        std::string(shaderSource("base_color_map.glsl")),
         std::string(shaderSource("unlit.frag.glsl"))}}};
   Result<Program> unlit = Program::make(stages);
   if (!unlit) return unlit.error();
@@ -360,7 +366,7 @@ void GlScene::bindTexture(const Program& program, std::uint32_t mesh) const {
   program.set("hasTexture", int(texture >= 0));
   if (texture >= 0) {
     const scene::Texture& from = asset_->scene.textures[texture];
-    program.set("wrap", wrapRule(from.wrapU), wrapRule(from.wrapV));
+    program.set("baseColorWrap", wrapRule(from.wrapU), wrapRule(from.wrapV));
   }
   glBindTextureUnit(0, texture >= 0 ? textures_.at(texture).name() : 0);
 }

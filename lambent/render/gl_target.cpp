@@ -14,10 +14,7 @@ Result<Program> accumulateProgram(bool background) {
   std::vector<std::string> parts = {
       fmt::format("#define LAMBENT_BACKGROUND {:d}", background),
   };
-  if (background) {
-    parts.push_back(environmentDefines());
-    parts.emplace_back(shaderSource("environment.glsl"));
-  }
+  if (background) parts.push_back(environmentSource());
   parts.emplace_back(shaderSource("accumulate.comp.glsl"));
   const Program::Stage stage{GL_COMPUTE_SHADER, "accumulate.comp.glsl", std::move(parts)};
   return Program::make({&stage, 1});

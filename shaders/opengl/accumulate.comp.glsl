@@ -1,7 +1,8 @@
 // Adds one sub-sample's picture to the sum and, where it left a pixel uncovered, what the
 // environment shows there.
 //
-// Before this text stand: #define LAMBENT_BACKGROUND 0 or 1 and, if 1, environment.glsl.
+// Before this text stand: #define LAMBENT_BACKGROUND 0 or 1 and, if 1, environment.glsl and
+// environment_maps.glsl.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f, binding = 0) readonly uniform image2D one;
@@ -22,6 +23,6 @@ void main() {
   if (here.a < 1.0)
     imageStore(behind, at,
                imageLoad(behind, at) +
-                   vec4(sampleEnvironment(corner + float(at.x) * right + float(at.y) * up), 1.0));
+                   vec4(environmentRadiance(corner + float(at.x) * right + float(at.y) * up), 1.0));
 #endif
 }

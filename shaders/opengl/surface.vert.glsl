@@ -1,8 +1,8 @@
 // A relit surface: vertices are pulled from buffers by their index. With transfer at the vertices,
 // the rasteriser interpolates what came of the light there: exit radiance, and the convolved lobe.
 //
-// Before this text stand: #define LAMBENT_KIND, LAMBENT_LOBE_GROUPS (the lobe's numbers in groups of
-// four, 0: not glossy), LAMBENT_INTERPOLATED 1, or 0 where the rasteriser does not take as many, and
+// Before this text stand: #define LAMBENT_KIND, LAMBENT_GROUPS (the lobe's numbers in groups of four,
+// 0: not glossy), LAMBENT_INTERPOLATED 1, or 0 where the rasteriser does not take as many, and
 // LAMBENT_EACH_GROUP(DO), which is DO(0) DO(1) … for all of them.
 
 struct Vertex {
@@ -13,7 +13,7 @@ struct Vertex {
 
 layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(std430, binding = 2) readonly buffer Diffuse { float diffuse[]; };  // [receiver][3]
-layout(std430, binding = 3) readonly buffer Lobe { vec4 lobe[]; };  // [receiver][LAMBENT_LOBE_GROUPS]
+layout(std430, binding = 3) readonly buffer Lobe { vec4 lobe[]; };  // [receiver][LAMBENT_GROUPS]
 
 uniform mat4 clipFromWorld;
 uniform bool hasDiffuse;
@@ -24,7 +24,7 @@ out vec4 colorV;
 #if LAMBENT_KIND == 0
 out vec3 exitRadiance;
 #if LAMBENT_INTERPOLATED
-out vec4 lobes[LAMBENT_LOBE_GROUPS];
+out vec4 incident[LAMBENT_GROUPS];
 #endif
 #endif
 
@@ -37,7 +37,7 @@ void main() {
   int at = 3 * gl_VertexID;
   exitRadiance = hasDiffuse ? vec3(diffuse[at], diffuse[at + 1], diffuse[at + 2]) : vec3(0.0);
 #if LAMBENT_INTERPOLATED
-#define COPY(i) lobes[i] = lobe[gl_VertexID * LAMBENT_LOBE_GROUPS + i];
+#define COPY(i) incident[i] = lobe[gl_VertexID * LAMBENT_GROUPS + i];
   LAMBENT_EACH_GROUP(COPY)
 #endif
 #endif

@@ -1,8 +1,8 @@
 // The base colour alone, of what faces the viewer.
 //
-// Before this text stands: base_color.glsl.
+// Before this text stand: base_color.glsl, base_color_map.glsl.
 
-uniform bool hasColor, hasTexture;
+uniform bool hasColor;
 uniform vec3 reflectance;
 
 in vec2 uv;
@@ -10,7 +10,6 @@ in vec3 color;
 layout(location = 0) out vec4 radiance;
 
 void main() {
-  vec3 base = hasColor ? color : vec3(1.0);
-  if (hasTexture) base *= sampleBaseColor(uv);
+  vec3 base = baseColor(hasColor ? color : vec3(1.0), uv);
   radiance = vec4(gl_FrontFacing ? reflectance * base : vec3(0.0), 1.0);
 }

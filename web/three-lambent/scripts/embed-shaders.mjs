@@ -1,28 +1,31 @@
 // Writes src/generated/shaders.ts: the GLSL of this package (src/glsl) and what it shares with the
-// native renderer (shaders/ of the repository), as strings.
+// native renderer (shaders/ of the repository), as strings, and the constants of it that programs
+// need as well.
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 
-const shared = new URL("../../../shaders/", import.meta.url);
-const own = new URL("../src/glsl/", import.meta.url);
-const kShared = [
-  "sh.glsl",
-  "view_square.glsl",
-  "rtt_footprint.glsl",
-  "rtt_look_up.glsl",
-  "tangent_frame.glsl",
-];
+const kFolders = ["../../../shaders/", "../src/glsl/"].map((path) => new URL(path, import.meta.url));
+const kConstants = ["kMostDiscs"];
 
 /** view_square.glsl → viewSquare, patch.frag.glsl → patchFrag */
 const nameOf = (file) =>
   file.replace(/\.glsl$/, "").replace(/[._-](.)/g, (_, letter) => letter.toUpperCase());
 
 const texts = new Map();
-for (const file of kShared) texts.set(file, readFileSync(new URL(file, shared), "utf8"));
-for (const file of readdirSync(own).sort())
-  if (file.endsWith(".glsl")) texts.set(file, readFileSync(new URL(file, own), "utf8"));
+for (const folder of kFolders)
+  for (const file of readdirSync(folder).sort()) {
+    if (!file.endsWith(".glsl")) continue;
+    if (texts.has(file)) throw new Error(`${file} is in shaders/ already`);
+    texts.set(file, readFileSync(new URL(file, folder), "utf8"));
+  }
 
 let out = "// Made by scripts/embed-shaders.mjs.\n";
 for (const [file, text] of texts)
   out += `export const ${nameOf(file)}: string = ${JSON.stringify(text)};\n`;
+const all = [...texts.values()].join("\n");
+for (const name of kConstants) {
+  const found = [...all.matchAll(new RegExp(`^const int ${name} = (\\d+);`, "gm"))];
+  if (found.length !== 1) throw new Error(`${name} is declared ${found.length} times`);
+  out += `export const ${name} = ${found[0][1]};\n`;
+}
 mkdirSync(new URL("../src/generated/", import.meta.url), { recursive: true });
 writeFileSync(new URL("../src/generated/shaders.ts", import.meta.url), out);

@@ -1,7 +1,7 @@
 // Discs of light: which there are, and where, how large, how bright and of what colour one is.
-import { srgbDecode, srgbEncode } from "three-lambent";
+import { kMostDiscs, srgbDecode, srgbEncode } from "three-lambent";
 import { button, h, slider } from "./dom";
-import { kMostDiscs, type DiscState, type Triple, type ViewState } from "./view_state";
+import type { DiscState, Triple, ViewState } from "./view_state";
 
 export interface DiscActions {
   change(what: (view: ViewState) => void): void;

@@ -19,6 +19,7 @@ import {
   ToneMapper,
   fitClipping,
   frameAutomatically,
+  kMostDiscs,
   subpixelPositions,
   type Disc,
   type Environment,
@@ -27,7 +28,7 @@ import { Accumulator } from "./accumulator";
 import { directionFromAzimuthElevation, kRadians } from "./directions";
 import type { LoadedEnvironment } from "./environments";
 import type { LoadedAsset } from "./load_asset";
-import { kMostDiscs, type LookAt, type Triple, type ViewState } from "./view_state";
+import type { LookAt, Triple, ViewState } from "./view_state";
 
 /** Frames of a new picture that are added up before they take the place of the last one. */
 const kFirstShown = 4;

@@ -56,8 +56,6 @@ export const kTransfers: readonly TransferChoice[] = [
   "shadowed",
   "interreflected",
 ];
-/** Mirrors and backgrounds can show so many beside each other. */
-export const kMostDiscs = 8;
 
 export function defaultView(): ViewState {
   return {

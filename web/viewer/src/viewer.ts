@@ -1,5 +1,6 @@
 // What is shown and how it changes: the view, the files behind it, and the frames that show it.
 import { Vector3 } from "three";
+import { kMostDiscs } from "three-lambent";
 import { azimuthElevationOf, kRadians } from "./directions";
 import { loadEnvironment, type LoadedEnvironment, type ReadFile } from "./environments";
 import { FrameGraph } from "./frame_graph";
@@ -12,7 +13,6 @@ import { SkyMap } from "./sky_map";
 import { Stage } from "./stage";
 import {
   defaultView,
-  kMostDiscs,
   parseView,
   type DiscState,
   type LookAt,

@@ -25,7 +25,7 @@ import { LitTexture } from "../gpu/lit-texture.js";
 import { kGroupsAFetch, kNumbersOf, type RttTexture } from "../gpu/rtt-texture.js";
 import { TransferPass, TurnPass, type LightPass } from "../gpu/transfer-pass.js";
 import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
-import { incidentGroups } from "../materials/incident-code.js";
+import { incidentGroups } from "../materials/group-macros.js";
 import {
   makePatchMaterial,
   makeSurfaceMaterial,

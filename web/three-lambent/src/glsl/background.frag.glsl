@@ -1,4 +1,6 @@
-// The environment behind everything, looked up as mirrors look it up. Before it: environment.glsl.
+// The environment behind everything, looked up as mirrors look it up.
+//
+// Before this text stand: environment.glsl, environment_map.glsl.
 
 uniform mat4 worldFromClip;
 uniform vec4 eye;  // as of the surfaces; in the world
@@ -11,7 +13,7 @@ void main() {
     vec4 far = worldFromClip * vec4(place, 0.0, 1.0);
     direction = far.xyz / far.w - eye.xyz;
   }
-  gl_FragColor = vec4(environmentRadiance(normalize(direction)), 1.0);
+  gl_FragColor = vec4(environmentRadiance(direction), 1.0);
 #include <tonemapping_fragment>
 #include <colorspace_fragment>
 }

@@ -1,4 +1,6 @@
 // The point of a surface that is shaded, from what the rasteriser interpolates; in the asset's frame.
+//
+// Before this text stands: shading_normal.glsl.
 
 in vec4 positionU;
 in vec4 normalV;
@@ -27,10 +29,6 @@ ShadingPoint shadingPoint() {
   float size = length(front);
   front = size > 0.0 ? front / size : point.toViewer;
   if (dot(front, point.toViewer) < 0.0) front = -front;
-  vec3 normal = normalV.xyz;
-  normal = dot(normal, normal) > 1e-30 ? normalize(normal) : front;
-  float side = dot(normal, front);
-  if (side < 0.0) normal = normalize(normal - 2.0 * side * front);  // as scene::surfaceAt
-  point.normal = normal;
+  point.normal = shadingNormal(normalV.xyz, front);
   return point;
 }

@@ -3,7 +3,7 @@
 // Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
 // LAMBENT_UV, LAMBENT_COLOR,
 // LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
-// corners, and vertices know their triangle); where they interpolate it incident.glsl.
+// corners, and vertices know their triangle); where they interpolate it incident_texture.glsl.
 
 #include <common>
 #include <logdepthbuf_pars_vertex>
@@ -60,8 +60,8 @@ void main() {
   diffuseRadiance = uintBitsToFloat(texelFetch(diffuseLit, diffusePlace, 0).rgb);
 #endif
 #if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
-  ivec2 first = incidentPlace(receiver);
-  for (int g = 0; g < LAMBENT_GROUPS; ++g) incident[g] = incidentGroup(first, g);
+  ivec2 first = lightPlace(receiver);
+  for (int g = 0; g < LAMBENT_GROUPS; ++g) incident[g] = lightGroup(first, g);
 #endif
   vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * mvPosition;

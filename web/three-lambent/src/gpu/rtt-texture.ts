@@ -13,7 +13,7 @@ import { layOutRows, layoutUniform, makeRowTexture, texelsOf } from "./row-textu
 /** As the shader's `levels[16]`. */
 const kMostLevels = 16;
 
-/** LAMBENT_NUMBERS of patch.frag.glsl. */
+/** LAMBENT_NUMBERS of shaders/rtt_response.glsl. */
 export const kNumbersOf = { float32: 0, float16: 1, snorm8: 2 } as const;
 
 /** Groups of four numbers in a texel of 16 bytes. */

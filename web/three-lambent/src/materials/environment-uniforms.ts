@@ -12,9 +12,13 @@ import {
   Vector4,
   type Texture,
 } from "three";
+import { environment, environmentMap, kMostDiscs } from "../generated/shaders.js";
 import type { Disc, QuaternionLike, Rgb } from "../light/light.js";
 
-const kMostDiscs = 8;
+export { kMostDiscs };
+
+/** `vec3 environmentRadiance(vec3 worldDirection)`. */
+export const environmentGlsl = environment + environmentMap;
 
 /** The environment as mirrors and {@link EnvironmentBackground} show it. */
 export interface Environment {
@@ -27,13 +31,13 @@ export interface Environment {
   rotation?: QuaternionLike;
   /** Times the texture's values. Default 1. */
   intensity?: number;
-  /** At most 8. */
+  /** At most {@link kMostDiscs}. */
   discs?: readonly Disc[];
   /** Radiance from everywhere, beside the rest. */
   uniform?: Rgb;
 }
 
-/** The uniforms of src/glsl/environment.glsl, shared by all materials that show one environment. */
+/** The uniforms of environmentGlsl, shared by all materials that show one environment. */
 export class EnvironmentUniforms {
   private readonly none: DataTexture;
   private copy: Texture | null = null;
@@ -47,10 +51,10 @@ export class EnvironmentUniforms {
       hasEnvironmentMap: { value: false },
       environmentFromWorld: { value: new Matrix3() },
       environmentIntensity: { value: 1 },
-      environmentUniform: { value: new Vector3() },
+      everywhere: { value: new Vector3() },
       discCount: { value: 0 },
       discs: { value: Array.from({ length: kMostDiscs }, () => new Vector4(0, 0, 1, 0)) },
-      discRadiance: { value: Array.from({ length: kMostDiscs }, () => new Vector3()) },
+      discRadiances: { value: Array.from({ length: kMostDiscs }, () => new Vector3()) },
     };
   }
 
@@ -65,17 +69,17 @@ export class EnvironmentUniforms {
     this.use(texture);
     u.hasEnvironmentMap.value = texture !== null;
     u.environmentIntensity.value = intensity;
-    u.environmentUniform.value.set(...(uniform ?? ([0, 0, 0] as const)));
+    u.everywhere.value.set(...(uniform ?? ([0, 0, 0] as const)));
     const q = rotation ?? { x: 0, y: 0, z: 0, w: 1 };
     const turned = new Quaternion(q.x, q.y, q.z, q.w).normalize().invert();
     u.environmentFromWorld.value.setFromMatrix4(new Matrix4().makeRotationFromQuaternion(turned));
     u.discCount.value = discs.length;
     discs.forEach((disc, i) => {
       const { x, y, z } = disc.direction;
-      const length = Math.hypot(x, y, z) || 1;
+      const axis = new Vector3(x, y, z).normalize().applyQuaternion(turned);
       const sine = Math.sin(disc.diameter / 4);
-      u.discs.value[i].set(x / length, y / length, z / length, 4 * sine * sine);
-      u.discRadiance.value[i].set(...disc.radiance);
+      u.discs.value[i].set(axis.x, axis.y, axis.z, 2 * sine * sine);
+      u.discRadiances.value[i].set(...disc.radiance);
     });
   }
 

@@ -19,20 +19,28 @@ import {
 } from "three";
 import {
   baseColor,
-  environment as environmentGlsl,
-  incident as incidentGlsl,
+  baseColorMap,
+  incident,
+  incidentTexture,
+  lobe,
   patchFrag,
+  patchPlace,
   rowPlace,
   rttFootprint,
   rttLookUp,
+  rttResponse,
+  rttTexture,
   sh,
+  shadingNormal,
   shadingPoint,
   surfaceFrag,
   surfaceVert,
   tangentFrame,
+  texelReceivers,
   viewSquare,
 } from "../generated/shaders.js";
-import { incidentGroups, lobeCode, responseCode } from "./incident-code.js";
+import { environmentGlsl } from "./environment-uniforms.js";
+import { eachGroup, incidentGroups, responseMacros } from "./group-macros.js";
 
 /** LAMBENT_KIND of surface.frag.glsl. */
 export const kSurfaceKind = { vertices: 0, texels: 1, mirror: 2, black: 3, unlit: 4 } as const;
@@ -54,16 +62,13 @@ export interface SurfaceShape {
 /** What of meso-structure decides about its shaders. */
 export interface PatchShape {
   bands: number;
-  /** LAMBENT_NUMBERS of patch.frag.glsl, and groups of numbers in 16 bytes. */
+  /** LAMBENT_NUMBERS of rtt_response.glsl, and groups of numbers in 16 bytes. */
   numbers: 0 | 1 | 2;
   groupsAFetch: number;
   fetch: boolean;
   filter: boolean;
   idMap: boolean;
 }
-
-const kFootprintDefines =
-  "#define LAMBENT_MOST_PROBES 4\n#define LAMBENT_LEAST_COSINE (1.0 / 64.0)\n";
 
 const flag = (value: unknown) => (value ? 1 : 0);
 
@@ -73,9 +78,14 @@ function defines(values: Record<string, string | number>): string {
     .join("");
 }
 
-/** How shaders find the light of a receiver. */
-function incidentParts(coefficients: number): string {
-  return defines({ GROUPS: incidentGroups(coefficients) }) + incidentGlsl;
+/** What incident.glsl and incident_texture.glsl want before them. */
+function incidentDefines(coefficients: number, interpolated: boolean): string {
+  return defines({
+    GROUPS: incidentGroups(coefficients),
+    "EACH_GROUP(DO)": eachGroup(coefficients),
+    INTERPOLATED: flag(interpolated),
+    LIGHT_PLACE: "ivec2",
+  });
 }
 
 const inverse = new Matrix4();
@@ -151,19 +161,23 @@ export function makeSurfaceMaterial(
     UV: flag(shape.uv),
     COLOR: flag(shape.colored),
     ALBEDO_OUTSIDE: flag(shape.albedoOutside),
-    LOBE: lobeCode(coefficients),
   });
-  const light = glossy ? incidentParts(coefficients) : "";
+  const light = glossy ? incidentDefines(coefficients, vertices && !fetch) : "";
   const parts = [
     common,
     light,
     glossy ? `#define LAMBENT_BANDS ${shape.lobeBands}\n${sh}` : "",
+    glossy ? incident + incidentTexture + lobe : "",
+    shadingNormal,
     shadingPoint,
-    map ? baseColor : "",
+    baseColor,
+    map ? baseColorMap : "",
+    shape.kind === "texels" ? texelReceivers : "",
     shape.kind === "mirror" ? `uniform mat3 worldFromAsset;\n${environmentGlsl}` : "",
     surfaceFrag,
   ];
-  const material = new RelitMaterial(common + light + surfaceVert, parts.join("\n"), {
+  const vertexParts = [common, light, glossy ? incidentTexture : "", surfaceVert];
+  const material = new RelitMaterial(vertexParts.join("\n"), parts.join("\n"), {
     reflectance: { value: new Vector3(1, 1, 1) },
     ...(map && {
       baseColorMap: { value: map },
@@ -192,20 +206,27 @@ export function makePatchMaterial(
     NUMBERS: shape.numbers,
     FILTER: flag(shape.filter),
     ID_MAP: flag(shape.idMap),
-    RESPONSE: responseCode(coefficients, shape.groupsAFetch),
+    RESPONSE: responseMacros(coefficients, shape.groupsAFetch),
+    RTT_PLACE: "ivec3",
   });
-  const light = incidentParts(coefficients);
+  const light = incidentDefines(coefficients, !shape.fetch);
   const parts = [
     common,
     light,
-    kFootprintDefines,
+    incident,
+    incidentTexture,
     rowPlace,
+    rttResponse,
+    rttTexture,
     viewSquare,
     rttFootprint,
-    tangentFrame,
     rttLookUp,
+    tangentFrame,
+    shadingNormal,
     shadingPoint,
+    patchPlace,
     patchFrag,
   ];
-  return new RelitMaterial(common + light + surfaceVert, parts.join("\n"), uniforms);
+  const vertexParts = [common, light, incidentTexture, surfaceVert];
+  return new RelitMaterial(vertexParts.join("\n"), parts.join("\n"), uniforms);
 }

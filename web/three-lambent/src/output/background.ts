@@ -8,12 +8,12 @@ import {
   ShaderMaterial,
   Vector4,
 } from "three";
+import { backgroundFrag, backgroundVert } from "../generated/shaders.js";
 import {
-  backgroundFrag,
-  backgroundVert,
-  environment as environmentGlsl,
-} from "../generated/shaders.js";
-import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
+  environmentGlsl,
+  EnvironmentUniforms,
+  type Environment,
+} from "../materials/environment-uniforms.js";
 
 /**
  * Shows an environment behind everything, looked up as mirrors look it up (three's own background

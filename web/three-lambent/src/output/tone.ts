@@ -1,8 +1,10 @@
-// From scene-referred linear RGB to what a screen shows: lambent/tone/tone_curve.h in TypeScript and
-// GLSL, to 1/255.
+// From scene-referred linear RGB to what a screen shows: lambent/tone/tone_curve.h in TypeScript,
+// and shaders/tone.glsl, to 1/255.
 //
 // f(x) = (x + a x²) / (1 + a x + a x²), a = 2, of the family that reinhard2002photographic eq. 3
 // opens.
+
+import { tone } from "../generated/shaders.js";
 
 export type ToneCurve = "filmic" | "linear";
 
@@ -22,13 +24,8 @@ export function srgbDecode(encoded: number): number {
   return encoded <= 0.04045 ? encoded / 12.92 : ((encoded + 0.055) / 1.055) ** 2.4;
 }
 
-/** `vec3 filmic(vec3)` and `vec3 srgbEncode(vec3)`, for shaders of one's own. */
-export const toneGlsl = /* glsl */ `
-vec3 filmic(vec3 c) {
-  vec3 x = clamp(c, 0.0, 65504.0);
-  return x * (1.0 + 2.0 * x) / (1.0 + 2.0 * x * (1.0 + x));
-}
-vec3 srgbEncode(vec3 c) {
-  return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, vec3(lessThanEqual(c, vec3(0.0031308))));
-}
-`;
+/**
+ * `vec3 filmic(vec3)`, `vec3 cutToOne(vec3)` (the linear curve) and `vec3 srgbEncode(vec3)`, for
+ * shaders of one's own.
+ */
+export const toneGlsl: string = tone;
