@@ -1,0 +1,104 @@
+// shaders/base_color.glsl against shade::baseColorAt.
+
+#include <gtest/gtest.h>
+
+#include "lambent/radiometry/tone.h"
+#include "lambent/shade/lit_mesh.h"
+#include "tests/shaders/test_glsl.h"
+
+#include "tests/shaders/glsl_begin.h"
+
+#define LAMBENT_MAP 1
+namespace lambent::glsl::mapped {
+#include "shaders/base_color.glsl"
+
+const scene::Texture* texture = nullptr;
+
+bool hasBaseColorMap() {
+  return texture != nullptr;
+}
+ivec2 baseColorSize() {
+  return {texture->width, texture->height};
+}
+vec3 baseColorTexel(ivec2 texel) {
+  EXPECT_TRUE(texel.x >= 0 && texel.x < texture->width && texel.y >= 0 &&
+              texel.y < texture->height);
+  const std::uint8_t* code = texture->rgba.data() + 4 * (texel.y * texture->width + texel.x);
+  const auto linear = [&](int c) { return radiometry::srgbDecode(float(code[c]) / 255.0f); };
+  return {linear(0), linear(1), linear(2)};
+}
+}  // namespace lambent::glsl::mapped
+
+#undef LAMBENT_MAP
+#define LAMBENT_MAP 0
+namespace lambent::glsl::plain {
+#include "shaders/base_color.glsl"
+}
+
+#include "tests/shaders/glsl_end.h"
+
+namespace lambent::glsl {
+namespace {
+
+int ruleOf(scene::Wrap wrap) {
+  return wrap == scene::Wrap::ClampToEdge ? 1 : wrap == scene::Wrap::MirroredRepeat ? 2 : 0;
+}
+
+TEST(BaseColor, IsTheLibrarys) {
+  using scene::Wrap;
+  math::Random random(1, 0);
+  for (const auto& [width, height] : {std::pair{16, 9}, {5, 64}, {1, 1}})
+    for (const Wrap wrapU : {Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat})
+      for (const Wrap wrapV : {Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat}) {
+        scene::Scene scene;
+        scene::Texture& texture = scene.textures.emplace_back();
+        texture.width = width;
+        texture.height = height;
+        texture.wrapU = wrapU;
+        texture.wrapV = wrapV;
+        for (int i = 0; i < 4 * width * height; ++i)
+          texture.rgba.push_back(std::uint8_t(random.below(256)));
+        scene.materials.emplace_back().baseColorTexture = 0;
+        scene::Mesh& mesh = scene.meshes.emplace_back();
+        mesh.material = 0;
+        mesh.triangles.push_back({0, 1, 2});
+        mesh.positions.resize(3, Vec3::Zero());
+        mapped::baseColorWrap = ivec2(ruleOf(wrapU), ruleOf(wrapV));
+        for (int i = 0; i < 2000; ++i) {
+          mesh.uvs.clear();
+          mesh.colors.clear();
+          for (int k = 0; k < 3; ++k) {
+            mesh.uvs.emplace_back(between(random, -3, 3), between(random, -3, 3));
+            mesh.colors.push_back(anyColor(random));
+          }
+          const float u = 0.5f * random.uniform(), v = 0.5f * random.uniform(), w = 1 - u - v;
+          const Rgb color = w * mesh.colors[0] + u * mesh.colors[1] + v * mesh.colors[2];
+          const Vec2 uv = w * mesh.uvs[0] + u * mesh.uvs[1] + v * mesh.uvs[2];
+          mapped::texture = &texture;
+          // The library's weights are of double precision: a texel's place has 1e-6 of it here.
+          ASSERT_LT(apart(mapped::baseColor(from(color), from(uv)),
+                          shade::baseColorAt(scene, 0, 0, u, v)),
+                    1e-5f)
+              << uv.transpose();
+          mapped::texture = nullptr;
+          ASSERT_LT(apart(mapped::baseColor(from(color), from(uv)), color), 1e-9f);
+          ASSERT_LT(apart(plain::baseColor(from(color), from(uv)), color), 1e-9f);
+        }
+      }
+}
+
+// Nonsense in a file must not lead out of the texture.
+TEST(BaseColor, StaysInsideForHugeCoordinates) {
+  scene::Texture texture;
+  texture.width = texture.height = 3;
+  texture.rgba.assign(36, 255);
+  mapped::texture = &texture;
+  for (int rule = 0; rule < 3; ++rule) {
+    mapped::baseColorWrap = ivec2(rule, rule);
+    for (const float far : {-1e30f, 1e30f, 1e6f, -1e6f})
+      EXPECT_LT(apart(mapped::baseColor(vec3(1.0f), vec2(far, -far)), Rgb(1, 1, 1)), 1e-6f);
+  }
+}
+
+}  // namespace
+}  // namespace lambent::glsl

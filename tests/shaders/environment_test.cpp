@@ -1,0 +1,128 @@
+// shaders/environment.glsl against light::Environment::radiance.
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "lambent/light/environment.h"
+#include "tests/shaders/test_glsl.h"
+
+#include "tests/shaders/glsl_begin.h"
+
+namespace lambent::glsl::seen {
+#include "shaders/environment.glsl"
+
+sampler2D map = nullptr;
+mat3 mapFromEnvironment;
+
+vec3 latLongTexel(sampler2D picture, ivec2 texel) {
+  const float* rgb = picture->rgb + 3 * (texel.y * picture->size.x + texel.x);
+  return {rgb[0], rgb[1], rgb[2]};
+}
+vec3 radianceOfMaps(vec3 d) {
+  return map ? sampleLatLong(map, mapFromEnvironment * d) : vec3(0.0f);
+}
+}  // namespace lambent::glsl::seen
+
+#include "tests/shaders/glsl_end.h"
+
+namespace lambent::glsl {
+namespace {
+
+using light::Environment;
+
+/// As render::GlEnvironment and the page set it up.
+void show(const Environment::Parts& parts, const Mat3& environmentFromWorld) {
+  ASSERT_LE(parts.discs.size(), std::size_t(seen::kMostDiscs));
+  ASSERT_LE(parts.images.size(), 1u);
+  seen::environmentFromWorld = from(environmentFromWorld);
+  seen::everywhere = from(parts.uniform);
+  seen::discCount = int(parts.discs.size());
+  for (std::size_t k = 0; k < parts.discs.size(); ++k) {
+    const auto& disc = parts.discs[k];
+    seen::discs[k] = vec4(from(disc.axis), float(disc.versine));
+    seen::discRadiances[k] = from(disc.radiance);
+  }
+  static Picture picture;
+  seen::map = nullptr;
+  if (parts.images.empty()) return;
+  const image::Image& image = *parts.images[0].image;
+  picture = {ivec2(image.width, image.height), image.pixels[0].data()};
+  seen::map = &picture;
+  seen::mapFromEnvironment = from(Mat3(parts.images[0].worldFromImage.transpose()));
+}
+
+/// Whether a rounded direction could lie on either side of a disc's border.
+bool isOnABorder(const Environment::Parts& parts, const Vec3& d) {
+  for (const auto& disc : parts.discs) {
+    const double off = (d - disc.axis).cast<double>().squaredNorm();
+    if (std::abs(off - 2 * disc.versine) < 1e-6 * std::sqrt(disc.versine)) return true;
+  }
+  return false;
+}
+
+void expectSame(const Environment& environment, std::uint64_t seed, float tolerance,
+                const Vec3& near = Vec3::Zero(), float spread = 0.0f) {
+  const Environment::Parts parts = environment.parts();
+  const Mat3 worldFromEnvironment = math::randomRotation(seed);
+  show(parts, worldFromEnvironment.transpose());
+  math::Random random(seed, 1);
+  int skipped = 0, different = 0;
+  constexpr int kMany = 20'000;
+  for (int i = 0; i < kMany; ++i) {
+    Vec3 d = anyDirection(random);
+    if (spread > 0) d = (near + spread * d).normalized();
+    const Rgb expected = environment.radiance(d);
+    if (isOnABorder(parts, d)) {
+      ++skipped;
+      continue;
+    }
+    different += (expected != parts.uniform).any();
+    const Vec3 world = between(random, 0.5f, 2.0f) * (worldFromEnvironment * d);  // of any length
+    ASSERT_LT(apart(seen::environmentRadiance(from(world)), expected), tolerance) << d.transpose();
+  }
+  EXPECT_LT(skipped, kMany / 50);
+  EXPECT_GT(different, kMany / 50);
+}
+
+image::Image noise(int width, int height, std::uint64_t seed) {
+  math::Random random(seed, 2);
+  image::Image image(width, height);
+  for (Rgb& pixel : image.pixels) pixel = anyColor(random);
+  return image;
+}
+
+TEST(EnvironmentText, MapsAreTheLibrarys) {
+  // An azimuth has 2e-7 of it, and less near the poles: so much of a pixel, from one to the next.
+  for (const auto& [width, height] : {std::pair{64, 32}, {7, 5}, {1, 1}})
+    expectSame(Environment::latLong(noise(width, height, 1)).rotated(math::randomRotation(5)) +
+                   Environment::uniform(Rgb(0.1f, 0.2f, 0.3f)),
+               std::uint64_t(width), 1e-4f);
+}
+
+// Side by side, one within another, half of the sphere, and all of it: 16 altogether.
+TEST(EnvironmentText, DiscsAreTheLibrarys) {
+  Environment sum = Environment::uniform(Rgb(0.1f, 0.2f, 0.3f));
+  const Vec3 sun = Vec3(1, 2, -0.5f).normalized();
+  sum = sum + Environment::disc(sun, 0.0093, Rgb(7, 6, 5));
+  sum = sum + Environment::disc(Vec3(-0.3f, -1, 0.2f).normalized(), kPi, Rgb(1, 0.5f, 0.2f));
+  sum = sum + Environment::disc(Vec3::UnitX(), 2 * kPi, Rgb(0.3f, 0.3f, 0.7f));
+  for (int k = 3; k < seen::kMostDiscs; ++k)
+    sum = sum + Environment::disc((sun + 0.004f * float(k) * Vec3(1, -0.5f, 0.3f)).normalized(),
+                                  0.005 * k, Rgb(0.1f * float(k), 1, 2));
+  EXPECT_EQ(sum.parts().discs.size(), std::size_t(seen::kMostDiscs));
+  EXPECT_DOUBLE_EQ(sum.parts().discs[1].versine, 1.0);
+  EXPECT_DOUBLE_EQ(sum.parts().discs[2].versine, 2.0);
+  expectSame(sum, 3, 2e-6f);
+  expectSame(sum, 4, 2e-6f, sun, 0.1f);
+  expectSame(sum, 5, 2e-6f, sun, 0.008f);
+}
+
+TEST(EnvironmentText, AFullDiscIsEverywhere) {
+  show(Environment::disc(Vec3::UnitY(), 2 * kPi, Rgb(1, 2, 3)).parts(), Mat3::Identity());
+  for (const Vec3& d : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(1, 0, 0), Vec3(0, 0, -1)})
+    EXPECT_LT(apart(seen::environmentRadiance(from(d)), Rgb(1, 2, 3)), 1e-9f);
+}
+
+}  // namespace
+}  // namespace lambent::glsl
