@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { Quaternion, Vector3 } from "three";
-import { LambentLight } from "../dist/index.js";
+import { kMostDiscs, LambentLight } from "../dist/index.js";
 import { bundle, openPage } from "./support/browser.mjs";
 import {
   ballScene,
@@ -308,6 +308,58 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       },
       "environment.exr+disc:30,50,40,3/2/1",
     ));
+
+  // Beside and upon each other, a sun, half of the sphere, and all of it.
+  for (const turn of [0, 70])
+    it(`as many discs as there can be${turn ? ", the map turned" : ""}`, () => {
+      const discs = Array.from({ length: kMostDiscs }, (_, i) => ({
+        azimuth: 35 + 7 * (i % 4),
+        elevation: 30 + 9 * Math.floor(i / 4),
+        diameter: 3 + 2 * i,
+        radiance: [0.1 * i, 0.4, 1.6 - 0.1 * i],
+      }));
+      discs[1] = { azimuth: 200, elevation: 65, diameter: 180, radiance: [0.2, 0.1, 0.4] };
+      discs[2] = { azimuth: -20, elevation: 10, diameter: 360, radiance: [0.1, 0.2, 0.1] };
+      discs[3] = { azimuth: 75, elevation: 20, diameter: 0.53, radiance: [90, 80, 70] };
+      const source = discs.map(
+        ({ azimuth, elevation, diameter, radiance }) =>
+          `disc:${azimuth},${elevation},${diameter},${radiance.join("/")}`,
+      );
+      return agree(
+        `mirror-discs-${turn}`,
+        "mirror.glb",
+        ["--rotate-y", turn, "--exposure", -1],
+        {
+          exposure: -1,
+          environmentRotation: aboutY(turn),
+          discs: discs.map(({ azimuth, elevation, diameter, radiance }) => {
+            // The tool turns all of the light; here the discs stand in the world.
+            const [a, e] = [azimuth * kDegree, elevation * kDegree];
+            const { x, y, z } = new Vector3(
+              Math.cos(e) * Math.cos(a),
+              Math.sin(e),
+              Math.cos(e) * Math.sin(a),
+            ).applyQuaternion(new Quaternion(...aboutY(turn)));
+            return { direction: { x, y, z }, diameter: diameter * kDegree, radiance };
+          }),
+        },
+        ["environment.exr", ...source].join("+"),
+      );
+    });
+
+  it("says so where there are more discs", async () => {
+    const message = await browser.page.evaluate((count) => {
+      const { THREE, lambent } = window;
+      const disc = { direction: new THREE.Vector3(0, 1, 0), diameter: 0.1, radiance: [1, 1, 1] };
+      try {
+        new lambent.EnvironmentBackground({ texture: null, discs: Array(count).fill(disc) });
+        return "";
+      } catch (error) {
+        return String(error.message);
+      }
+    }, kMostDiscs + 1);
+    assert.match(message, new RegExp(`${kMostDiscs + 1} discs, where ${kMostDiscs} can be shown`));
+  });
 
   it("fetches per pixel when told to, and by itself where varyings are few", async () => {
     const layouts = await browser.page.evaluate(async () => {
