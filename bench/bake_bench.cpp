@@ -189,7 +189,7 @@ class BareEmbree {
   }
 
   trace::DirectionSet directions_;
-  transport::Receivers receivers_;
+  transport::PlacedReceivers receivers_;
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };
@@ -239,10 +239,10 @@ void benchMesh(const std::string& name, const scene::Scene& mesh, int directions
   fmt::print("\n{}: {} receivers, {} directions\n", name, bare.receivers(), directions);
 
   macro::BakeOptions shadowed;
-  shadowed.kind = transport::TransferKind::Shadowed;
+  shadowed.kind = transfer::Kind::Shadowed;
   shadowed.directions = directions;
   macro::BakeOptions bounced = shadowed;
-  bounced.kind = transport::TransferKind::Interreflected;
+  bounced.kind = transfer::Kind::Interreflected;
   bounced.bounces = 3;
 
   double shadowedBest = 1e30, glossyBest = 1e30, firstBest = 1e30, furtherBest = 1e30;

@@ -5,9 +5,9 @@
 //   RESULT.csv  figures: name, value, unit, wanted
 //   INPUTS      folder with bunny.obj (tools/fetch-inputs.sh)
 //
-// Stages are stated in seconds, because what they are compared with is (Sloan 2003 §6: hours); the
-// RTT's rays are counted too, and a frame is stated as a ratio to a frame of the same mesh with a
-// plain texture.
+// Stages are stated in seconds, because what they are compared with is (sloan2003biscale §6:
+// hours); the RTT's rays are counted too, and a frame is stated as a ratio to a frame of the same
+// mesh with a plain texture.
 #include <map>
 #include <optional>
 
@@ -21,6 +21,7 @@
 #include "lambent/scene/shapes.h"
 #include "lambent/scene_io/load.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/transfer/encode.h"
 
 namespace {
 
@@ -60,8 +61,7 @@ class StageTimes {
   std::map<std::string, double> seconds_;
 };
 
-meso::RadianceTransferTexture benchRtt(const meso::Patch& patch, meso::RttMethod method,
-                                       bool quick) {
+transfer::SimulatedRtt benchRtt(const meso::Patch& patch, meso::RttMethod method, bool quick) {
   meso::RttOptions options;
   options.method = method;
   if (quick) options.width = options.height = 16;
@@ -103,12 +103,12 @@ asset::Asset plainlyTextured(const scene::Scene& biScale) {
   scene.textures = {texture};
   for (scene::Material& material : scene.materials) material.baseColorTexture = 0;
   macro::BakeOptions options;
-  options.kind = transport::TransferKind::Unshadowed;
+  options.kind = transfer::Kind::Unshadowed;
   const auto rays = valueOf(trace::RayScene::build(scene));
   const auto receivers = valueOf(transport::placeReceivers(scene, {}, rays.offset()));
   asset::Asset asset;
-  asset.transfer = encode::encode(valueOf(macro::bake(scene, rays, receivers, options, {})).value,
-                                  encode::Encoding::Float16);
+  asset.transfer = transfer::encode(valueOf(macro::bake(scene, rays, receivers, options, {})).value,
+                                    transfer::Encoding::Float16);
   asset.scene = std::move(scene);
   return asset;
 }
@@ -149,23 +149,22 @@ void benchFrames(const asset::Asset& biScale) {
     note("GL 512x512: " + name + " / plain texture", seconds / texture, "");
   };
   compare("bi-scale");
-  options.biScale.filter = false;
+  options.showing.filter = false;
   compare("bi-scale, nearest position");
-  options.biScale.viewDependent = false;
+  options.showing.viewDependent = false;
   compare("bi-scale, nearest position, no view dependence");
 }
 
 bi_scale::Spread benchAsset(const std::string& name, const scene::Scene& scene,
-                            const encode::EncodedRtt& rtt, const Rgb& albedo, bool quick) {
+                            const transfer::EncodedRtt& rtt, const Rgb& albedo, bool quick) {
   bi_scale::SpreadOptions options;
   options.albedo = albedo;
   options.mesoVertices = quick ? 60000 : 960000;
   options.transfer.directions = quick ? 1024 : 8192;
   StageTimes times;
-  Findings findings;
   const double start = now();
   bi_scale::Spread spread =
-      valueOf(bi_scale::spreadPatch(scene, rtt, options, times.progress(), findings));
+      valueOf(bi_scale::spreadPatch(scene, rtt, options, times.progress())).value;
   note(name + ": a finished asset from the mesh and the RTT", now() - start, "s");
   times.report(name);
   const bi_scale::SpreadReport& report = spread.reports.front();
@@ -184,10 +183,9 @@ int main(int argc, char** argv) {
   const bool quick = argc > 3 && std::string_view(argv[3]) == "--quick";
 
   const double start = now();
-  const meso::RadianceTransferTexture weave =
-      benchRtt(meso::weave(), meso::RttMethod::Gather, quick);
+  const transfer::SimulatedRtt weave = benchRtt(meso::weave(), meso::RttMethod::Gather, quick);
   const double gathered = now() - start;
-  const encode::EncodedRtt rtt = encode::encode(weave, encode::Encoding::Snorm8);
+  const transfer::EncodedRtt rtt = transfer::encode(weave, transfer::Encoding::Snorm8);
   const Rgb albedo = meso::effectiveAlbedo(weave);
 
   if (const auto bunny = scene_io::load(inputs / "bunny.obj")) {

@@ -5,10 +5,10 @@
 #include <epoxy/gl.h>
 
 #include "bench/figures_file.h"
-#include "lambent/capture/capture_by_rays.h"
 #include "lambent/capture/sample_points.h"
 #include "lambent/capture/surroundings.h"
 #include "lambent/light/environment.h"
+#include "lambent/reference/capture_by_rays.h"
 #include "lambent/render/gl_capture.h"
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_target.h"

@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include "bench/figures_file.h"
+#include "lambent/asset/check.h"
 #include "lambent/bi_scale/spread_patch.h"
 #include "lambent/meso/build_rtt.h"
 #include "lambent/meso/generators.h"
@@ -26,6 +27,7 @@
 #include "lambent/scene_io/load.h"
 #include "lambent/sh/rotation.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/transfer/encode.h"
 
 namespace {
 
@@ -56,13 +58,13 @@ const light::Environment& environment() {
 
 asset::Asset bake(scene::Scene scene, const transport::Placement& placement = {}) {
   macro::BakeOptions options;
-  options.kind = transport::TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   options.directions = 64;
   const trace::RayScene rays = valueOf(trace::RayScene::build(scene));
   const auto receivers = valueOf(transport::placeReceivers(scene, placement, rays.offset()));
   asset::Asset asset;
-  asset.transfer = encode::encode(valueOf(macro::bake(scene, rays, receivers, options, {})).value,
-                                  encode::Encoding::Float16);
+  asset.transfer = transfer::encode(valueOf(macro::bake(scene, rays, receivers, options, {})).value,
+                                    transfer::Encoding::Float16);
   asset.scene = std::move(scene);
   return asset;
 }
@@ -93,7 +95,7 @@ scene::Mesh bumpySphere(int vertices) {
 /// A live renderer and what moves before it.
 class Stage {
  public:
-  Stage(const asset::Asset& asset, const render::LiveOptions& options)
+  Stage(const asset::Asset& asset, const shade::Showing& options)
       : renderer_(valueOf(render::LiveRenderer::make(asset, options))),
         light_(environment().project(asset.transfer.bands)) {
     expectOk(renderer_.resize(kSide, kSide));
@@ -134,7 +136,7 @@ struct FrameTimes {
   double moving = 0, still = 0, unlit = 0;  ///< seconds
 };
 
-FrameTimes measure(const asset::Asset& asset, const render::LiveOptions& options = {}) {
+FrameTimes measure(const asset::Asset& asset, const shade::Showing& options = {}) {
   Stage stage(asset, options);
   const int frames = quick ? 2 : 20;
   const auto repeat = [&](bool moveLight, bool unlit) {
@@ -150,7 +152,7 @@ FrameTimes measure(const asset::Asset& asset, const render::LiveOptions& options
 }
 
 void compare(const std::string& name, const asset::Asset& asset,
-             const render::LiveOptions& options = {}) {
+             const shade::Showing& options = {}) {
   const FrameTimes times = measure(asset, options);
   note(name + ": unlit", 1e3 * times.unlit, "ms");
   note(name + ": light stands still / unlit", times.still / times.unlit, "");
@@ -183,21 +185,20 @@ void benchKinds() {
   rttOptions.directions = 32;
   rttOptions.bounces = 0;
   rttOptions.supersample = 1;
-  Findings findings;
-  const encode::EncodedRtt rtt = encode::encode(
-      valueOf(meso::buildRtt(meso::weave(), rttOptions, {})).value, encode::Encoding::Snorm8);
+  const transfer::EncodedRtt rtt = transfer::encode(
+      valueOf(meso::buildRtt(meso::weave(), rttOptions, {})).value, transfer::Encoding::Snorm8);
   bi_scale::SpreadOptions spread;
   spread.placement = bi_scale::Placement::OwnUvs;
   spread.transfer.directions = 64;
   spread.transfer.bounces = 1;
-  const asset::Asset patched = valueOf(bi_scale::spreadPatch(scene::sceneOf(bumpySphere(vertices)),
-                                                             rtt, spread, {}, findings))
-                                   .asset;
-  render::LiveOptions options;
+  const asset::Asset patched =
+      valueOf(bi_scale::spreadPatch(scene::sceneOf(bumpySphere(vertices)), rtt, spread))
+          .value.asset;
+  shade::Showing options;
   compare("bi-scale, filtered", patched, options);
-  options.biScale.filter = false;
+  options.filter = false;
   compare("bi-scale, nearest position", patched, options);
-  options.biScale.macro = shade::MacroTransport::Off;
+  options.mesoStructure = transfer::Kind::Unshadowed;
   compare("bi-scale, nearest position, macro off", patched, options);
 }
 
@@ -211,8 +212,8 @@ void benchRelight(const std::string& name, const asset::Asset& asset) {
   const sh::RgbCoefficients light = environment().project(asset.transfer.bands);
   const int passes = quick ? 1 : 5;
   double bytes = 0;
-  for (const encode::EncodedMesh& mesh : asset.transfer.meshes)
-    bytes += 2.0 * double(mesh.vectors.size() + mesh.matrices.size());
+  const asset::PartBytes parts = asset::bytesOf(asset);
+  bytes += double(parts.vectors + parts.matrices);
   const double best = bestOf(quick ? 2 : 6, {[&] {
                                for (int i = 0; i < passes; ++i) {
                                  scene.setLight(light);
@@ -237,7 +238,8 @@ void benchRow(const TableRow& row, const asset::Asset& asset) {
   const FrameTimes times = measure(asset);
   const std::string name = std::string("as ") + row.name;
   std::size_t receivers = 0;
-  for (const encode::EncodedMesh& mesh : asset.transfer.meshes) receivers += mesh.receiverCount();
+  for (const transfer::EncodedMesh& mesh : asset.transfer.meshes)
+    if (const transfer::Receivers* held = transfer::receiversOf(mesh)) receivers += held->size();
   note(name + ": receivers", double(receivers), "");
   note(name + ": light and view move", 1 / times.moving, "Hz");
   note(name + ": light and view move, Table 1", row.moving, "Hz");

@@ -10,37 +10,20 @@
 #include <random>
 
 #include "lambent/shade/shade.h"
+#include "lambent/shade/transfer_matrices.h"
 
 namespace lambent::shade {
 namespace {
 
-using encode::Encoding;
+using transfer::Encoding;
 
 constexpr std::size_t kReceivers = 50'000;
 
-encode::EncodedMesh mesh(int bands, int channels, int outBands, Encoding encoding) {
-  encode::EncodedMesh mesh;
-  mesh.layout = transport::Layout::Vertices;
-  mesh.positions.assign(kReceivers, Vec3::Zero());
-  mesh.normals.assign(kReceivers, Vec3::UnitZ());
+transfer::Numbers numbers(std::size_t count, Encoding encoding) {
   std::mt19937 engine(1);
-  const auto numbers = [&](std::size_t count) {
-    std::vector<float> values(count);
-    for (float& x : values) x = float(engine()) / float(1u << 31) - 1.0f;
-    return encode::encode(values, encoding);
-  };
-  if (outBands == 0) {
-    mesh.bands = bands;
-    mesh.channels = channels;
-    mesh.vectors = numbers(kReceivers * channels * sh::coefficientCount(bands));
-  } else {
-    mesh.outBands = outBands;
-    mesh.inBands = bands;
-    mesh.matrixChannels = channels;
-    mesh.matrices = numbers(kReceivers * channels * sh::coefficientCount(outBands) *
-                            sh::coefficientCount(bands));
-  }
-  return mesh;
+  std::vector<float> values(count);
+  for (float& x : values) x = float(engine()) / float(1u << 31) - 1.0f;
+  return transfer::encode(values, encoding);
 }
 
 sh::RgbCoefficients light(int bands) {
@@ -80,7 +63,8 @@ void report(benchmark::State& state, double seconds, std::size_t bytes) {
 }
 
 void diffuse(benchmark::State& state, int bands, int channels, Encoding encoding) {
-  const DiffuseShader shader(mesh(bands, channels, 0, encoding));
+  const DiffuseShader shader(
+      {bands, channels, numbers(kReceivers * channels * sh::coefficientCount(bands), encoding)});
   const sh::RgbCoefficients l = light(bands);
   std::vector<float> out(3 * kReceivers);
   const double start = threadSeconds();
@@ -96,10 +80,14 @@ void diffuse(benchmark::State& state, int bands, int channels, Encoding encoding
 
 void glossy(benchmark::State& state, int outBands, int inBands, int channels, Encoding encoding) {
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-  const encode::EncodedMesh m = mesh(inBands, channels, outBands, encoding);
+  const transfer::Matrices<transfer::Numbers> m{
+      outBands, inBands, channels,
+      numbers(
+          kReceivers * channels * sh::coefficientCount(outBands) * sh::coefficientCount(inBands),
+          encoding)};
   const sh::RgbCoefficients l = light(inBands);
   const double start = threadSeconds();
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(transferredRadiance(m, l).data());
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(applyMatrices(m, l).data());
   const double seconds = threadSeconds() - start;
   report(state, seconds,
          kReceivers * channels * sh::coefficientCount(outBands) * sh::coefficientCount(inBands) *

@@ -1,8 +1,8 @@
-# lambent_room(<name> SOURCES … [PUBLIC …] [PRIVATE …] [HEADERS …] [TESTS …] [TEST_LIBS …])
+# lambent_room(<name> SOURCES … [PUBLIC …] [PRIVATE …] [TESTS …] [TEST_LIBS …])
 #
 # A room is one static library: folder = include path = namespace = target lambent::<name>.
-# PUBLIC and PRIVATE name what it may include; HEADERS names rooms of whose headers it uses the
-# plain structs alone, without linking them. tools/check_rooms.py holds the includes to that.
+# PUBLIC and PRIVATE name what it may include. tools/check_rooms.py holds the includes to
+# that.
 # TESTS become one executable, lambent_<name>_tests, whose cases ctest sees as <name>.<Suite>.<Case>.
 
 if(LAMBENT_TESTS)
@@ -25,7 +25,7 @@ endif()
 set_property(GLOBAL PROPERTY LAMBENT_ROOMS "")
 
 function(lambent_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE;HEADERS;TESTS;TEST_LIBS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LIBS" ${ARGN})
   set(target lambent_${name})
   if(ROOM_SOURCES)
     add_library(${target} STATIC ${ROOM_SOURCES})

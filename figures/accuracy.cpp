@@ -141,7 +141,7 @@ void glossyAccuracy(const Studio& studio) {
       options.directions = studio.directions();
       options.glossyBands = bands;
       options.bounces = 0;
-      shade::View view;
+      shade::ReceiverView view;
       view.eye = eye;
       const Error shadowed =
           compare(shade::exitRadiance(bake(scene, options).asset, 0, light, view), sample, direct);

@@ -1,5 +1,5 @@
-// The figures of Sloan 2003 (bi-scale radiance transfer), the truth beside them, and what else is
-// measured of it.
+// The figures of sloan2003biscale (bi-scale radiance transfer), the truth beside them, and what
+// else is measured of it.
 #pragma once
 
 #include "figures/studio.h"

@@ -30,21 +30,28 @@ scene::Scene dentedBall() {
   return scene::sceneOf(std::move(mesh), diffuseMaterial(Rgb::Constant(0.5f)));
 }
 
-asset::Asset withEncodings(const asset::Asset& from, encode::Encoding rtt,
-                           encode::Encoding matrices) {
+using BiScale = transfer::BiScale<transfer::Numbers>;
+
+/// The most that the mesh's matrices hold.
+transfer::Numbers& matricesOf(asset::Asset& asset) {
+  auto& matrices = std::get<BiScale>(asset.transfer.meshes[0]).matrices;
+  return matrices.find(transfer::Kind::Interreflected)->numbers;
+}
+
+asset::Asset withEncodings(const asset::Asset& from, transfer::Encoding rtt,
+                           transfer::Encoding matrices) {
   asset::Asset out = from;
-  out.transfer.rtts[0].values = encode::encode(encode::decode(from.transfer.rtts[0]), rtt).values;
-  encode::EncodedBiScale& biScale = *out.transfer.meshes[0].biScale;
-  const std::size_t matrix =
-      std::size_t(biScale.bands) * biScale.bands * biScale.bands * biScale.bands;
-  biScale.interreflected = encode::encode(encode::decode(biScale.interreflected), matrices, matrix);
+  out.transfer.rtts[0] = transfer::encode(transfer::decode(from.transfer.rtts[0]), rtt);
+  transfer::Numbers& numbers = matricesOf(out);
+  const std::size_t matrix = std::get<BiScale>(out.transfer.meshes[0])
+                                 .matrices.find(transfer::Kind::Interreflected)
+                                 ->perMatrix();
+  numbers = transfer::encode(transfer::decode(numbers), matrices, matrix);
   return out;
 }
 
-double mebibytes(const encode::Numbers& numbers) {
-  return double(numbers.half.size() * 2 + numbers.single.size() * 4 + numbers.byte.size() +
-                numbers.scales.size() * 4) /
-         double(1 << 20);
+double mebibytes(const transfer::Numbers& numbers) {
+  return double(transfer::bytesOf(numbers)) / double(1 << 20);
 }
 
 image::Comparison compared(const image::Image& test, const image::Image& reference) {
@@ -55,7 +62,7 @@ image::Comparison compared(const image::Image& test, const image::Image& referen
 
 void biscaleFilter(const Studio& studio) {
   const int side = studio.pixels(256), many = studio.quick ? 64 : 256;
-  const meso::RadianceTransferTexture rtt = rttNamed(studio, "weave");
+  const transfer::SimulatedRtt rtt = rttNamed(studio, "weave");
   bi_scale::SpreadOptions wear;
   wear.placement = Placement::OwnUvs, wear.tiles = Vec2(160, 160);
   wear.transfer.directions = 1024, wear.transfer.bounces = 0;
@@ -93,8 +100,8 @@ void biscaleFilter(const Studio& studio) {
     const scene::Camera there = lookAt(
         scene.eye, scene.target + right * (scene.target - scene.eye).norm() * angle, scene.fov);
     const auto shoot = [&](const scene::Camera& camera, bool filter, int samples) {
-      shade::BiScaleOptions options;
-      options.macro = shade::MacroTransport::Off, options.filter = filter;
+      shade::Showing options;
+      options.mesoStructure = transfer::Kind::Unshadowed, options.filter = filter;
       return photograph(scene.asset, light, options, {camera, side, side, samples});
     };
     const image::Image truth = shoot(here, false, many), moved = shoot(there, false, many);
@@ -118,22 +125,23 @@ void biscaleFilter(const Studio& studio) {
 }
 
 void biscaleEncodings(const Studio& studio) {
-  using encode::Encoding;
+  using transfer::Encoding;
   const int side = studio.pixels(400);
-  const meso::RadianceTransferTexture rtt = rttNamed(studio, "weave");
+  const transfer::SimulatedRtt rtt = rttNamed(studio, "weave");
   bi_scale::SpreadOptions wear;
   wear.matrixEncoding = Encoding::Float32;
   wear.transfer.directions = studio.directions(), wear.transfer.bounces = 2;
   wear.mesoVertices = studio.quick ? 100000 : 300000;
   if (studio.quick) wear.atlas.size = 1024;
   const scene::Scene scene = dentedBall();
-  const bi_scale::Spread exact = spread(scene, rtt, wear);
-  const encode::EncodedMesh& mesh = exact.asset.transfer.meshes[0];
-  const std::vector<float> matrices = encode::decode(mesh.biScale->interreflected);
+  bi_scale::Spread exact = spread(scene, rtt, wear);
+  const BiScale& mesh = std::get<BiScale>(exact.asset.transfer.meshes[0]);
+  const transfer::IdMap& map = *mesh.patch.idMap();
+  const std::vector<float> matrices = transfer::decode(matricesOf(exact.asset));
   const sh::RgbCoefficients light = studio.hdri("workshop").project(5);
   const Shot shot{scene::frameAutomatically(scene, 1.0f), side, side, 16};
   const image::Image truth = photograph(exact.asset, light, {}, shot);
-  const double idMap = double(mesh.biScale->idMap->ids.size() * 2) / double(1 << 20);
+  const double idMap = double(map.ids.size() * 2) / double(1 << 20);
   const double geometry = double(exact.asset.scene.meshes[0].positions.size() * (12 + 12 + 8 + 16) +
                                  exact.asset.scene.meshes[0].triangles.size() * 12) /
                           double(1 << 20);
@@ -143,8 +151,8 @@ void biscaleEncodings(const Studio& studio) {
       "| "
       "FLIP | RTT MiB | matrices MiB | id map MiB | file MiB "
       "|\n|---|---|---|---|---|---|---|---|---|---|\n",
-      mesh.receiverCount(), scene.meshes[0].positions.size(), rtt.width, rtt.height, rtt.views,
-      rtt.views, mesh.biScale->idMap->width, mesh.biScale->idMap->height);
+      mesh.receivers->size(), scene.meshes[0].positions.size(), rtt.width, rtt.height, rtt.views,
+      rtt.views, map.width, map.height);
   const auto name = [](Encoding encoding) {
     return encoding == Encoding::Float32   ? "32 bits"
            : encoding == Encoding::Float16 ? "16 bits"
@@ -156,17 +164,17 @@ void biscaleEncodings(const Studio& studio) {
                                           {Encoding::Float16, Encoding::Snorm8},
                                           {Encoding::Snorm8, Encoding::Float16},
                                           {Encoding::Snorm8, Encoding::Snorm8}}) {
-    const asset::Asset asset = withEncodings(exact.asset, ofRtt, ofMatrices);
-    const encode::Numbers& numbers = asset.transfer.rtts[0].values;
-    const encode::Numbers& matrix = asset.transfer.meshes[0].biScale->interreflected;
+    asset::Asset asset = withEncodings(exact.asset, ofRtt, ofMatrices);
+    const transfer::Numbers& numbers = asset.transfer.rtts[0].values;
+    const transfer::Numbers& matrix = matricesOf(asset);
     const image::Comparison error = compared(photograph(asset, light, {}, shot), truth);
     if (const Status saved = asset::write(asset, file); !saved) die(saved.error().message);
     const double bytes = double(std::filesystem::file_size(file)) / double(1 << 20);
     std::filesystem::remove(file);
     fmt::print(
         "| {} | {} | {:.4f}% | {:.4f}% | {:.4f}% | {:.4f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n",
-        name(ofRtt), name(ofMatrices), 100 * encode::encodingError(rtt.values, numbers),
-        100 * encode::encodingError(matrices, matrix), 100 * error.relativeRmse, error.flip,
+        name(ofRtt), name(ofMatrices), 100 * transfer::encodingError(rtt.values, numbers),
+        100 * transfer::encodingError(matrices, matrix), 100 * error.relativeRmse, error.flip,
         mebibytes(numbers), mebibytes(matrix), idMap, bytes);
     std::fflush(stdout);
   }

@@ -1,4 +1,4 @@
-// Sloan 2003's Figures 1, 3, 4, 5 and 6, and its vase.
+// sloan2003biscale's Figures 1, 3, 4, 5 and 6, and its vase.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,15 +14,16 @@ namespace lambent::figures {
 namespace {
 
 using bi_scale::Placement;
-using shade::BiScaleOptions;
-using shade::MacroTransport;
+using shade::Showing;
+using transfer::Kind;
 
 const scene::Material kAny = diffuseMaterial(Rgb::Constant(0.5f));
 
-BiScaleOptions macro(MacroTransport transport) {
-  BiScaleOptions options;
-  options.macro = transport;
-  return options;
+/// What the shape as a whole does to light.
+Showing macro(Kind kind) {
+  Showing showing;
+  showing.mesoStructure = kind;
+  return showing;
 }
 
 Mat3 turnedY(float degrees) {
@@ -33,7 +34,7 @@ Mat3 turnedY(float degrees) {
 }
 
 /// A square of 1 m that wears `tiles` periods of the patch each way.
-asset::Asset square(const meso::RadianceTransferTexture& rtt, float tiles) {
+asset::Asset square(const transfer::SimulatedRtt& rtt, float tiles) {
   bi_scale::SpreadOptions options;
   options.placement = Placement::OwnUvs;
   options.tiles = Vec2(tiles, tiles);
@@ -63,7 +64,7 @@ sh::RgbCoefficients asBright(const light::Environment& environment, float mean) 
 
 /// A surface that wears the patch by synthesis, with both kinds of matrices.
 asset::Asset dressed(const Studio& studio, const scene::Scene& scene,
-                     const meso::RadianceTransferTexture& rtt, float patchWidth) {
+                     const transfer::SimulatedRtt& rtt, float patchWidth) {
   bi_scale::SpreadOptions options;
   options.patchWidth = patchWidth;
   options.transfer.directions = studio.quick ? 1024 : 4096;
@@ -189,9 +190,9 @@ void biscaleFigure4(const Studio& studio) {
   for (const SquareView& view : squareViews(side)) {
     std::vector<image::Image> row;
     for (const sh::RgbCoefficients& light : lights)
-      row.push_back(develop(photograph(asset, light, macro(MacroTransport::Off),
-                                       {view.camera, side, view.height, 16}),
-                            0.6f));
+      row.push_back(develop(
+          photograph(asset, light, macro(Kind::Unshadowed), {view.camera, side, view.height, 16}),
+          0.6f));
     sheet.rows.push_back(std::move(row));
   }
   studio.save(compose(sheet), "biscale-figure4");
@@ -209,9 +210,9 @@ void biscaleFigure5(const Studio& studio) {
     sheet.columnLabels.push_back(name);
     for (std::size_t v = 0; v < 2; ++v) {
       const SquareView view = squareViews(side)[v];
-      sheet.rows[v].push_back(develop(photograph(asset, light, macro(MacroTransport::Off),
-                                                 {view.camera, side, view.height, 16}),
-                                      0.5f));
+      sheet.rows[v].push_back(develop(
+          photograph(asset, light, macro(Kind::Unshadowed), {view.camera, side, view.height, 16}),
+          0.5f));
     }
   }
   studio.save(compose(sheet), "biscale-figure5");
@@ -227,8 +228,7 @@ void biscaleFigure1(const Studio& studio) {
   Sheet sheet;
   sheet.columnLabels = {"(a) no macro-scale transport", "(b) shadowed", "(c) interreflected"};
   sheet.rows.resize(1);
-  for (const MacroTransport transport :
-       {MacroTransport::Off, MacroTransport::Shadowed, MacroTransport::Interreflected})
+  for (const Kind transport : transfer::kKinds)
     sheet.rows[0].push_back(
         develop(photograph(asset, light, macro(transport), {camera, side, side, 16}), 0.3f));
   studio.save(compose(sheet), "biscale-figure1");
@@ -245,8 +245,7 @@ void biscaleFigure3(const Studio& studio) {
   Sheet sheet;
   sheet.columnLabels = {"(a) none", "(b) shadows", "(c) and interreflection"};
   sheet.rows.resize(1);
-  for (const MacroTransport transport :
-       {MacroTransport::Off, MacroTransport::Shadowed, MacroTransport::Interreflected})
+  for (const Kind transport : transfer::kKinds)
     sheet.rows[0].push_back(develop(
         photograph(asset, world.project(5), macro(transport), {camera, side, side, 16}), 0.3f));
   studio.save(compose(sheet), "biscale-figure3");
@@ -274,13 +273,13 @@ void biscaleFigure6(const Studio& studio) {
     const scene::Camera whole = scene::frameAutomatically(mesh, 1.0f);
     const Vec3 target = box.center() + row.zoomAt.cwiseProduct(box.upper - box.lower);
     const scene::Camera near = zoomed(whole, target, 3.6f);
-    BiScaleOptions pasted;
+    Showing pasted;
     pasted.viewDependent = false;
-    const auto shoot = [&](const scene::Camera& camera, const BiScaleOptions& options) {
+    const auto shoot = [&](const scene::Camera& camera, const Showing& options) {
       return develop(photograph(asset, light, options, {camera, side, side, 16}), 0.4f);
     };
     sheet.rowLabels.push_back(row.label);
-    sheet.rows.push_back({shoot(whole, macro(MacroTransport::Off)), shoot(whole, {}),
+    sheet.rows.push_back({shoot(whole, macro(Kind::Unshadowed)), shoot(whole, {}),
                           shoot(near, pasted), shoot(near, {})});
   }
   studio.save(compose(sheet), "biscale-figure6");
@@ -296,16 +295,17 @@ void biscaleVase(const Studio& studio) {
   options.transfer.directions = studio.directions();
   options.transfer.bounces = 3;
   const bi_scale::Spread worn = spread(stage, rttNamed(studio, "flower"), options);
-  fmt::print("vase: {} vertices with matrices\n", worn.asset.transfer.meshes[0].receiverCount());
+  fmt::print("vase: {} vertices with matrices\n",
+             transfer::receiversOf(worn.asset.transfer.meshes[0])->size());
   const sh::RgbCoefficients light = asBright(studio.hdri("workshop").rotated(turnedY(200)), 0.6f);
   Sheet sheet;
   sheet.columnLabels = {"without macro", "with", "from above"};
   const scene::Camera front = lookAt(Vec3(0, 1.5f, 3.4f), Vec3(0, 0.58f, 0), 27),
                       above = lookAt(Vec3(1.1f, 2.7f, 1.6f), Vec3(0, 0.8f, 0), 27);
-  const auto shoot = [&](const scene::Camera& camera, const BiScaleOptions& how) {
+  const auto shoot = [&](const scene::Camera& camera, const Showing& how) {
     return develop(photograph(worn.asset, light, how, {camera, side, side, 16}), 0.4f);
   };
-  sheet.rows = {{shoot(front, macro(MacroTransport::Off)), shoot(front, {}), shoot(above, {})}};
+  sheet.rows = {{shoot(front, macro(Kind::Unshadowed)), shoot(front, {}), shoot(above, {})}};
   studio.save(compose(sheet), "biscale-vase");
 }
 

@@ -227,7 +227,7 @@ void compareStage(const Studio& studio, const Stage& stage, const BuiltRtt& buil
   options.tiles = stage.tiles;
   options.transfer.directions = studio.directions();
   options.transfer.bounces = kBounces;
-  options.matrixEncoding = options.vectorEncoding = encode::Encoding::Float32;
+  options.matrixEncoding = options.vectorEncoding = transfer::Encoding::Float32;
   const auto start = std::chrono::steady_clock::now();
   const bi_scale::Spread spreadOut = spread(stage.smooth, built.rtt, options);
   const double baking =
@@ -241,7 +241,7 @@ void compareStage(const Studio& studio, const Stage& stage, const BuiltRtt& buil
       "macro off: beyond noise | bias | blurred | FLIP |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       stage.name, patchName, double(triangles) * 1e-6,
-      spreadOut.asset.transfer.meshes[0].receiverCount(), baking);
+      transfer::receiversOf(spreadOut.asset.transfer.meshes[0])->size(), baking);
   const trace::RayScene rays = orDie(trace::RayScene::build(stage.relief));
   const std::vector<Light> lights = lightsOf(studio);
   Sheet sheet;
@@ -252,8 +252,8 @@ void compareStage(const Studio& studio, const Stage& stage, const BuiltRtt& buil
       const Stage::View& view = stage.views[v];
       const Truth truth = truthOf(stage, rays, view.camera, lights[l].coefficients, side,
                                   studio.paths(v == l ? 64 : 32));
-      shade::BiScaleOptions on, off;
-      off.macro = shade::MacroTransport::Off;
+      shade::Showing on, off;
+      off.mesoStructure = transfer::Kind::Unshadowed;
       const Shot shot{view.camera, side, side, 64};
       const image::Image with = photograph(spreadOut.asset, lights[l].coefficients, on, shot);
       const image::Image without = photograph(spreadOut.asset, lights[l].coefficients, off, shot);
@@ -310,8 +310,8 @@ void whatItIsMadeOf(const Studio& studio, const meso::Patch& patch, const std::s
     wear.placement = bi_scale::Placement::OwnUvs, wear.tiles = stage.tiles;
     wear.transfer.directions = 1024, wear.transfer.bounces = 0;
     const bi_scale::Spread worn = spread(stage.smooth, built.rtt, wear);
-    shade::BiScaleOptions off;
-    off.macro = shade::MacroTransport::Off;
+    shade::Showing off;
+    off.mesoStructure = transfer::Kind::Unshadowed;
     fmt::print("| {}x{} | {}x{} |", options.width, options.height, r.views, r.views);
     for (std::size_t v = 0; v < truths.size(); ++v) {
       const image::Image ours =

@@ -1,5 +1,5 @@
 // Captured light: how good cube maps are, and how many points light should be sampled at
-// (Sloan 2002 §6.1-6.2, Figure 5).
+// (sloan2002precomputed §6.1-6.2, Figure 5).
 #pragma once
 
 #include "figures/studio.h"

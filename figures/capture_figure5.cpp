@@ -39,7 +39,7 @@ Stage stage(const Studio& studio) {
   const scene::Box box = scene::bounds(bunny);
   const float r = 0.5f * box.diagonal();
   macro::BakeOptions options;
-  options.kind = transport::TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   options.directions = studio.directions();
   Stage result{bake(bunny, options).asset,
                {},
@@ -78,18 +78,20 @@ image::Image show(const Studio& studio, const Stage& stage, const std::vector<Rg
   asset::Asset asset;
   asset.transfer.bands = 1;
   const auto add = [&](const scene::Mesh& mesh, const std::vector<Rgb>& values) {
-    encode::EncodedMesh transfer;
-    transfer.layout = transport::Layout::Vertices;
-    transfer.positions = mesh.positions;
-    transfer.normals = mesh.normals;
-    transfer.bands = 1;
-    transfer.channels = 3;
     // Under a sky of radiance 1 this comes out as the values.
+    std::vector<float> numbers;
     for (const Rgb& value : values)
-      for (int c = 0; c < 3; ++c)
-        transfer.vectors.single.push_back(value[c] / std::sqrt(4 * float(kPi)));
+      for (int c = 0; c < 3; ++c) numbers.push_back(value[c] / std::sqrt(4 * float(kPi)));
+    transfer::Surface<transfer::Numbers> surface{
+        std::make_shared<const transfer::Receivers>(
+            transfer::Receivers{mesh.positions, mesh.normals, transfer::AtVertices{}}),
+        {}};
+    surface.responses.set(asset.transfer.kind,
+                          {transfer::Diffuse<transfer::Numbers>{
+                               {}, {1, 3, transfer::encode(numbers, transfer::Encoding::Float32)}},
+                           {}});
     scene::addTo(asset.scene, mesh, diffuseMaterial(Rgb::Ones()));
-    asset.transfer.meshes.push_back(std::move(transfer));
+    asset.transfer.meshes.push_back(std::move(surface));
   };
   add(stage.asset.scene.meshes[0], radiance);
   for (const capture::Body& body : radiant) {

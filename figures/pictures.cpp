@@ -18,9 +18,8 @@ namespace lambent::figures {
 namespace {
 
 using macro::BakeOptions;
-using transport::TransferKind;
 
-BakeOptions optionsFor(const Studio& studio, TransferKind kind, int bounces = 2) {
+BakeOptions optionsFor(const Studio& studio, transfer::Kind kind, int bounces = 2) {
   BakeOptions options;
   options.kind = kind;
   options.directions = studio.directions();
@@ -69,8 +68,8 @@ void figure3(const Studio& studio) {
   const light::Environment environment = skyAndSun();
   const sh::RgbCoefficients light = environment.project(5);
   std::vector<image::Image> row;
-  for (const TransferKind kind :
-       {TransferKind::Unshadowed, TransferKind::Shadowed, TransferKind::Interreflected})
+  for (const transfer::Kind kind :
+       {transfer::Kind::Unshadowed, transfer::Kind::Shadowed, transfer::Kind::Interreflected})
     row.push_back(develop(photograph(bake(stage, optionsFor(studio, kind, 4)).asset, light,
                                      environment, camera, side, side),
                           -0.4f));
@@ -84,7 +83,7 @@ void figure3(const Studio& studio) {
 void figure9(const Studio& studio) {
   const int side = studio.pixels(360);
   const scene::Scene scene = ringOnGround();
-  BakeOptions options = optionsFor(studio, TransferKind::Interreflected, 1);
+  BakeOptions options = optionsFor(studio, transfer::Kind::Interreflected, 1);
   options.directions = studio.quick ? 2048 : 16384;
   const int texels = studio.quick ? 128 : 256;
   const transport::Placement placement{{{0, texels, texels}}, {}};
@@ -118,7 +117,7 @@ void figure9(const Studio& studio) {
 void figure10(const Studio& studio) {
   const int side = studio.pixels(200);
   const scene::Scene scene = polygonOverGround();
-  BakeOptions options = optionsFor(studio, TransferKind::Shadowed);
+  BakeOptions options = optionsFor(studio, transfer::Kind::Shadowed);
   options.bands = 10;
   options.directions = studio.quick ? 4096 : 32768;
   const int texels = studio.quick ? 96 : 192;
@@ -171,7 +170,8 @@ void figure11(const Studio& studio) {
     std::vector<image::Image> row;
     for (const scene::Material& material :
          {diffuseMaterial(Rgb(0.7f, 0.75f, 0.65f)), glossyMaterial(Rgb(0.8f, 0.62f, 0.35f), 16)})
-      for (const TransferKind kind : {TransferKind::Unshadowed, TransferKind::Interreflected}) {
+      for (const transfer::Kind kind :
+           {transfer::Kind::Unshadowed, transfer::Kind::Interreflected}) {
         const scene::Scene scene = madeOf(mesh, material);
         row.push_back(develop(photograph(bake(scene, optionsFor(studio, kind, 2)).asset, light,
                                          environment, camera, side, side),
@@ -199,7 +199,7 @@ void figure12(const Studio& studio) {
     std::vector<image::Image> row;
     for (const int bounces : {0, 1, 2, 4})
       row.push_back(develop(
-          photograph(bake(scene, optionsFor(studio, TransferKind::Interreflected, bounces)).asset,
+          photograph(bake(scene, optionsFor(studio, transfer::Kind::Interreflected, bounces)).asset,
                      light, environment, camera, side, side),
           0.0f));
     row.push_back(develop(pathTrace(scene, light::Environment::harmonics(light), camera, side, side,
@@ -235,21 +235,23 @@ void table1(const Studio& studio) {
       "the paper's frames |\n|---|---|---|---|---|---|---|\n");
   const sh::RgbCoefficients light = studio.hdri("venice").project(5);
   for (const Row& row : rows) {
-    const BakeOptions options = optionsFor(studio, TransferKind::Interreflected, 1);
+    const BakeOptions options = optionsFor(studio, transfer::Kind::Interreflected, 1);
     transport::Placement placement;
     if (row.texels > 0) placement.texels = {{0, row.texels, row.texels}};
     const Baked baked = bake(row.scene, options, placement);
-    const encode::EncodedMesh& mesh = baked.asset.transfer.meshes[0];
+    const auto& surface =
+        std::get<transfer::Surface<transfer::Numbers>>(baked.asset.transfer.meshes[0]);
+    const auto& response = *surface.responses.find(baked.asset.transfer.kind);
     double seconds = 0.0;
-    if (!mesh.vectors.empty()) {
-      const shade::DiffuseShader shader(mesh);
+    if (response.diffuse) {
+      const shade::DiffuseShader shader(response.diffuse->vectors);
       std::vector<float> out(3 * shader.receiverCount());
       seconds = secondsOf([&] { shader.shade(light, out); });
     } else {
-      seconds = secondsOf([&] { shade::transferredRadiance(mesh, light); });
+      seconds = secondsOf([&] { shade::applyMatrices(response.glossy->matrices, light); });
     }
     fmt::print("| {} | {} | {} | {:.1f} s | {} | {:.0f} Hz | {} Hz |\n", row.name,
-               mesh.receiverCount(), row.shape, baked.seconds, row.seedTime, 1.0 / seconds,
+               surface.receivers->size(), row.shape, baked.seconds, row.seedTime, 1.0 / seconds,
                row.seedRate);
     std::fflush(stdout);
   }

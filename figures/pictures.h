@@ -1,4 +1,4 @@
-// Figures 3, 9, 10, 11 and 12 of Sloan 2002, and its Table 1.
+// Figures 3, 9, 10, 11 and 12 of sloan2002precomputed, and its Table 1.
 #pragma once
 
 #include "figures/studio.h"

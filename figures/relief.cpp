@@ -28,7 +28,7 @@ meso::RttOptions rttOptions(const Studio& studio) {
   return options;
 }
 
-meso::RadianceTransferTexture rttNamed(const Studio& studio, const std::string& name) {
+transfer::SimulatedRtt rttNamed(const Studio& studio, const std::string& name) {
   const auto kept = studio.rtts->find(name);
   if (kept != studio.rtts->end()) return kept->second;
   meso::RttOptions options = rttOptions(studio);
@@ -44,20 +44,20 @@ meso::RadianceTransferTexture rttNamed(const Studio& studio, const std::string& 
   return studio.rtts->emplace(name, built.rtt).first->second;
 }
 
-bi_scale::Spread spread(const scene::Scene& scene, const meso::RadianceTransferTexture& rtt,
+bi_scale::Spread spread(const scene::Scene& scene, const transfer::SimulatedRtt& rtt,
                         bi_scale::SpreadOptions options) {
   options.albedo = meso::effectiveAlbedo(rtt);
   options.transfer.bands = rtt.bands;
-  Findings findings;
-  return orDie(bi_scale::spreadPatch(scene, encode::encode(rtt, encode::Encoding::Float32), options,
-                                     {}, findings));
+  return orDie(bi_scale::spreadPatch(scene, transfer::encode(rtt, transfer::Encoding::Float32),
+                                     options))
+      .value;
 }
 
 image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,
-                        const shade::BiScaleOptions& options, const Shot& shot) {
+                        const shade::Showing& showing, const Shot& shot) {
   shade::PictureOptions picture;
   picture.width = shot.width, picture.height = shot.height, picture.samples = shot.samples;
-  picture.biScale = options;
+  picture.showing = showing;
   return orDie(
       render::picture(asset, light, light::Environment::harmonics(light), shot.camera, picture));
 }

@@ -7,13 +7,13 @@
 #include "figures/studio.h"
 #include "lambent/bi_scale/spread_patch.h"
 #include "lambent/meso/build_rtt.h"
-#include "lambent/shade/bi_scale_options.h"
+#include "lambent/shade/showing.h"
 
 namespace lambent::figures {
 
 /// A patch's RTT and what it cost.
 struct BuiltRtt {
-  meso::RadianceTransferTexture rtt;
+  transfer::SimulatedRtt rtt;
   meso::RttCost cost;
   double seconds = 0.0;
 };
@@ -22,11 +22,11 @@ BuiltRtt build(const meso::Patch& patch, const meso::RttOptions& options);
 meso::RttOptions rttOptions(const Studio& studio);
 /// That of a generator with its defaults, built once. As in the paper: plaster, stucco and flower
 /// have 128×128 positions and no dependence on the view.
-meso::RadianceTransferTexture rttNamed(const Studio& studio, const std::string& name);
+transfer::SimulatedRtt rttNamed(const Studio& studio, const std::string& name);
 
 /// The surface wears the patch, whose numbers are kept in 32 bits; those of matrices as the options
 /// say. What others see of it is the RTT's own effective albedo.
-bi_scale::Spread spread(const scene::Scene& scene, const meso::RadianceTransferTexture& rtt,
+bi_scale::Spread spread(const scene::Scene& scene, const transfer::SimulatedRtt& rtt,
                         bi_scale::SpreadOptions options);
 
 struct Shot {
@@ -35,7 +35,7 @@ struct Shot {
 };
 /// Linear radiance, by OpenGL.
 image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,
-                        const shade::BiScaleOptions& options, const Shot& shot);
+                        const shade::Showing& showing, const Shot& shot);
 
 /// The light's five bands, windowed until no direction is negative: what both a path tracer and a
 /// bake can be asked to see.

@@ -12,7 +12,7 @@ scene::Material mirrorMaterial(const Rgb& reflectance);
 /// The same scene with every material replaced.
 scene::Scene madeOf(scene::Scene scene, const scene::Material& material);
 
-/// A mirror ring on a ground plane (Sloan 2002 Figure 9). Mesh 0 is the ground, with UVs.
+/// A mirror ring on a ground plane (sloan2002precomputed Figure 9). Mesh 0 is the ground, with UVs.
 scene::Scene ringOnGround();
 
 /// One polygon over a ground plane (Figure 10). Mesh 0 is the ground, with UVs.
@@ -23,7 +23,7 @@ scene::Scene polygonOverGround();
 scene::Mesh welded(const scene::Mesh& mesh);
 
 /// Every triangle in 4^levels, bent by its normals into a smooth surface (curved PN triangles,
-/// Vlachos 2001: [vlachos2001curved]): coarse models get round silhouettes.
+/// vlachos2001curved): coarse models get round silhouettes.
 scene::Mesh smoothlySubdivided(scene::Mesh mesh, int levels);
 
 }  // namespace lambent::figures

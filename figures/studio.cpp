@@ -6,13 +6,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "lambent/encode/encoded_field.h"
 #include "lambent/image/io.h"
 #include "lambent/image/strip.h"
+#include "lambent/reference/relit_picture.h"
 #include "lambent/scene_io/load.h"
-#include "lambent/shade/picture.h"
 #include "lambent/sources/source.h"
 #include "lambent/tone/tone_curve.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::figures {
 
@@ -46,7 +46,7 @@ Baked bake(const scene::Scene& scene, const macro::BakeOptions& options,
   const auto baked = orDie(macro::bake(scene, rays, receivers, options, {}));
   Baked out;
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  out.asset = {scene, encode::encode(baked.value, encode::Encoding::Float32)};
+  out.asset = {scene, transfer::encode(baked.value, transfer::Encoding::Float32)};
   return out;
 }
 
@@ -55,7 +55,7 @@ image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& li
                         int width, int height) {
   shade::PictureOptions options;
   options.width = width, options.height = height;
-  return orDie(shade::picture(asset, light, environment, camera, options));
+  return orDie(reference::relitPicture(asset, light, environment, camera, options));
 }
 
 image::Image pathTrace(const scene::Scene& scene, const light::Environment& environment,

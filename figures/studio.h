@@ -10,9 +10,9 @@
 #include "lambent/asset/asset.h"
 #include "lambent/light/environment.h"
 #include "lambent/macro/bake.h"
-#include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/reference/path_tracer.h"
 #include "lambent/scene/camera.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::figures {
 
@@ -31,8 +31,8 @@ struct Studio {
   bool quick = false;            ///< fewer directions, paths and pixels, to try a figure out
 
   /// RTTs that one figure built and another may want, by the patch's name.
-  std::shared_ptr<std::map<std::string, meso::RadianceTransferTexture>> rtts =
-      std::make_shared<std::map<std::string, meso::RadianceTransferTexture>>();
+  std::shared_ptr<std::map<std::string, transfer::SimulatedRtt>> rtts =
+      std::make_shared<std::map<std::string, transfer::SimulatedRtt>>();
 
   int directions() const { return quick ? 1024 : 8192; }
   int pixels(int full) const { return quick ? full / 2 : full; }

@@ -1,4 +1,4 @@
-// How much each corner of a triangle counts at a place of it: shade::Receivers::ofTriangle.
+// How much each corner of a triangle counts at a place of it: shade::ReceiverWeights::ofTriangle.
 
 vec3 cornerWeights(vec3 position, vec3 a, vec3 b, vec3 c) {
   vec3 e1 = b - a, e2 = c - a;

@@ -1,5 +1,5 @@
 // The four texels around a place of a grid of receivers, and their weights, which sum to 1:
-// shade::Receivers::ofTexels.
+// shade::ReceiverWeights::ofTexels.
 
 struct Texels {
   ivec4 receiver;  // row by row from v = 0

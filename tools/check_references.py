@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Every paper's key that sources, shaders and documents cite resolves in docs/references.bib.
+"""Every paper that sources, shaders and documents cite resolves in docs/references.bib.
 
-A key is written authorYEARword, as in sloan2002precomputed. Prints dead ones and exits with 1.
+A key is written authorYEARword, as in sloan2002precomputed. Sources cite by keys alone: a surname
+with a year is told where the bibliography has papers by that author. Prints what is wrong and exits
+with 1.
 """
 
 import re
@@ -11,6 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 KEY = re.compile(r"\b([a-z]+(?:19|20)\d\d[a-z]+)\b")
 PLACES = ["lambent", "apps", "shaders", "spec", "bench", "examples", "tests", "docs", "cmake", "figures"]
+SOURCES = {".h", ".cpp", ".glsl"}
 SUFFIXES = {".h", ".cpp", ".glsl", ".md", ".py", ".cmake", ".txt"}
 
 
@@ -18,6 +21,8 @@ def main() -> int:
     bibliography = (ROOT / "docs/references.bib").read_text()
     entries = re.findall(r"^@\w+\{([^,\s]+),", bibliography, re.MULTILINE)
     known = set(entries)
+    surnames = "|".join(sorted({re.match("[a-z]+", key)[0].capitalize() for key in known}))
+    by_surname = re.compile(rf"\b(?:{surnames})(?:'s)? (?:19|20)\d\d\b")
     cited = set()
     dead = [f"docs/references.bib: {key} stands there twice"
             for key in sorted(known) if entries.count(key) > 1]
@@ -31,6 +36,9 @@ def main() -> int:
                     if key not in known:
                         dead.append(f"{path.relative_to(ROOT)}:{number}: {key} is not in "
                                     "docs/references.bib")
+                for name in by_surname.findall(line) if path.suffix in SOURCES else []:
+                    dead.append(f"{path.relative_to(ROOT)}:{number}: {name} is cited by surname: "
+                                "write its key")
     for problem in dead:
         print(problem, file=sys.stderr)
     if not dead:

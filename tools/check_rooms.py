@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Holds every room's includes to the dependencies that its CMakeLists.txt declares.
 
-A room may include its own headers, those of the rooms it names under PUBLIC, PRIVATE or HEADERS,
-and what these name under PUBLIC; its tests also those of TEST_LIBS. The whole must be a DAG. Only
+A room may include its own headers, those of the rooms it names under PUBLIC or PRIVATE, and what
+these name under PUBLIC; its tests also those of TEST_LIBS. The whole must be a DAG. Only
 lambent/trace may include Embree. Prints what is wrong and exits with 1.
 """
 
@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-KEYWORDS = {"SOURCES", "PUBLIC", "PRIVATE", "HEADERS", "TESTS", "TEST_LIBS"}
+KEYWORDS = {"SOURCES", "PUBLIC", "PRIVATE", "TESTS", "TEST_LIBS"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.MULTILINE)
 
 
@@ -53,7 +53,7 @@ def main() -> int:
 
     edges = {}
     for name, lists in rooms.items():
-        direct = set().union(*(rooms_in(lists.get(k, [])) for k in ("PUBLIC", "PRIVATE", "HEADERS")))
+        direct = set().union(*(rooms_in(lists.get(k, [])) for k in ("PUBLIC", "PRIVATE")))
         edges[name] = direct
         allowed = with_public(direct) | {name}
         allowed_in_tests = allowed | with_public(rooms_in(lists.get("TEST_LIBS", [])))

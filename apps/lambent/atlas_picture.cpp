@@ -20,7 +20,8 @@ Rgb chartColour(std::uint32_t chart) {
 
 Status writeAtlasPicture(const atlas::Atlas& atlas, const asset::Asset& asset, std::uint32_t mesh,
                          const std::filesystem::path& path) {
-  const synthesis::IdMap& map = *asset.transfer.meshes[mesh].biScale->idMap;
+  const auto& biScale = std::get<transfer::BiScale<transfer::Numbers>>(asset.transfer.meshes[mesh]);
+  const transfer::IdMap& map = *biScale.patch.idMap();
   const int side = std::min(kMostTexels, map.width);
   const std::vector<std::uint32_t> charts = atlas::chartOfTexel(atlas, map.width);
   image::Image picture(2 * side, side);

@@ -12,8 +12,9 @@
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
-#include "lambent/encode/encoded_field.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/transfer/encode.h"
+#include "lambent/transfer/names.h"
 #include "lambent/transport/receivers.h"
 
 namespace lambent::tool {
@@ -24,7 +25,7 @@ struct BakeArguments {
   SceneArguments scene;
   std::filesystem::path output;
   TransferArguments transfer;
-  encode::Encoding encoding = encode::Encoding::Float16;
+  transfer::Encoding encoding = transfer::Encoding::Float16;
   std::vector<std::string> texels;  ///< MESH=WxH, or WxH for every mesh with UVs
 };
 
@@ -87,7 +88,7 @@ Status runBake(BakeArguments arguments, Console& console) {
   if (!grids) return grids.error();
 
   // Without bounces there is no room for a slipped ray's light to gather in.
-  const trace::Edges edges = options.kind == transport::TransferKind::Interreflected
+  const trace::Edges edges = options.kind == transfer::Kind::Interreflected
                                  ? trace::Edges::Watertight
                                  : trace::Edges::Fast;
   auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene, edges); });
@@ -103,7 +104,7 @@ Status runBake(BakeArguments arguments, Console& console) {
 
   asset::Asset asset;
   asset.transfer =
-      console.stage("encode", [&] { return encode::encode(field->value, arguments.encoding); });
+      console.stage("encode", [&] { return transfer::encode(field->value, arguments.encoding); });
   field->value = {};  // as large as the asset again
   asset.scene = std::move(*scene);
   Status status =
@@ -125,20 +126,21 @@ Status runBake(BakeArguments arguments, Console& console) {
   }
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(arguments.output, ignored);
-  std::size_t receivers = 0;
-  for (const encode::EncodedMesh& mesh : asset.transfer.meshes) receivers += mesh.receiverCount();
-  Description transfer = describe(asset.transfer, asset.scene);
+  std::size_t stored = 0;
+  for (const transfer::EncodedMesh& mesh : asset.transfer.meshes)
+    if (const transfer::Receivers* held = transfer::receiversOf(mesh)) stored += held->size();
+  Description transfer = describe(asset);
   const double rate = raySeconds > 0.0 ? double(rayCount) / raySeconds : 0.0;
   console.finish(
       {{"output", arguments.output.string()},
        {"bytes", bytes},
-       {"receivers", receivers},
+       {"receivers", stored},
        {"rays", rayCount},
        {"rays_per_second", rate},
        {"seconds", seconds},
        {"transfer", transfer.json}},
       fmt::format("{}: {}\n{}{} receivers, {} rays at {}, {} in all\n{}", arguments.output.string(),
-                  formatBytes(double(bytes)), transfer.text, formatCount(receivers),
+                  formatBytes(double(bytes)), transfer.text, formatCount(stored),
                   formatCount(rayCount), formatRate(rate, "rays"), formatSeconds(seconds), times));
   return Status::ok();
 }
@@ -182,7 +184,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       })
       ->group("Transfer");
   addChoice(*app, "--encoding", arguments->encoding,
-            {{"float16", encode::Encoding::Float16}, {"float32", encode::Encoding::Float32}},
+            {{"float16", transfer::Encoding::Float16}, {"float32", transfer::Encoding::Float32}},
             "float16, or float32 for exact round trips")
       ->option_text("KIND")
       ->group("Output");

@@ -5,14 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lambent/asset/names.h"
 #include "lambent/asset/summary.h"
 #include "lambent/math/directions.h"
 #include "lambent/radiometry/luminance.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
+#include "lambent/transfer/names.h"
 
 namespace lambent::tool {
+
+using transfer::nameOf;
 
 namespace {
 
@@ -65,34 +67,6 @@ std::string describeMaterial(const scene::Material& material) {
 
 Json asJson(const Rgb& rgb) {
   return {rgb[0], rgb[1], rgb[2]};
-}
-
-std::string_view nameOf(transport::TransferKind kind) {
-  switch (kind) {
-    case transport::TransferKind::Unshadowed:
-      return "unshadowed";
-    case transport::TransferKind::Shadowed:
-      return "shadowed";
-    case transport::TransferKind::Interreflected:
-      return "interreflected";
-  }
-  return "";
-}
-
-std::string_view nameOf(transport::Layout layout) {
-  switch (layout) {
-    case transport::Layout::None:
-      return "none";
-    case transport::Layout::Vertices:
-      return "vertices";
-    case transport::Layout::Texels:
-      return "texels";
-  }
-  return "";
-}
-
-std::string_view nameOf(encode::Encoding encoding) {
-  return asset::nameOf(encoding);
 }
 
 Description describe(const scene::Scene& scene) {
@@ -152,38 +126,91 @@ Description describe(const scene::Scene& scene) {
 
 namespace {
 
-Description describe(const encode::EncodedBiScale& biScale, std::size_t receivers) {
-  const std::string matrices = !biScale.interreflected.empty() && !biScale.shadowed.empty()
+Description describe(const asset::BiScaleSummary& biScale, std::uint64_t receivers) {
+  const bool any = biScale.shadowed || biScale.interreflected;
+  const std::string matrices = biScale.interreflected && biScale.shadowed
                                    ? "shadowed and interreflected matrices"
-                               : !biScale.interreflected.empty() ? "interreflected matrices"
-                               : !biScale.shadowed.empty()       ? "shadowed matrices"
-                                                                 : "no matrices";
-  const encode::Numbers& any =
-      biScale.interreflected.empty() ? biScale.shadowed : biScale.interreflected;
+                               : biScale.interreflected ? "interreflected matrices"
+                               : biScale.shadowed       ? "shadowed matrices"
+                                                        : "no matrices";
   const std::string where =
-      biScale.idMap
-          ? fmt::format("id map {}x{}", biScale.idMap->width, biScale.idMap->height)
+      biScale.idMapWidth > 0
+          ? fmt::format("id map {}x{}", biScale.idMapWidth, biScale.idMapHeight)
           : fmt::format("{:.4g}x{:.4g} tiles of its UVs", biScale.tiles.x(), biScale.tiles.y());
   Description d;
   d.text = fmt::format("bi-scale, {} vertices, {}, {} of {} bands{}\n", formatCount(receivers),
                        where, matrices, biScale.bands,
-                       any.empty() ? "" : fmt::format(", {}", nameOf(any.encoding)));
+                       any ? fmt::format(", {}", nameOf(biScale.encoding)) : "");
   d.json = {{"rtt", biScale.rtt},
             {"bands", biScale.bands},
             {"scale", biScale.scale},
-            {"id_map",
-             {biScale.idMap ? biScale.idMap->width : 0, biScale.idMap ? biScale.idMap->height : 0}},
+            {"id_map", {biScale.idMapWidth, biScale.idMapHeight}},
             {"tiles", {biScale.tiles.x(), biScale.tiles.y()}},
-            {"shadowed", !biScale.shadowed.empty()},
-            {"interreflected", !biScale.interreflected.empty()},
+            {"shadowed", biScale.shadowed},
+            {"interreflected", biScale.interreflected},
             {"channels", biScale.channels},
-            {"encoding", nameOf(any.encoding)}};
+            {"encoding", nameOf(biScale.encoding)}};
+  return d;
+}
+
+Description describe(const asset::MeshSummary& mesh) {
+  const std::string called = mesh.name.empty() ? "(no name)" : mesh.name;
+  Description d;
+  d.json = {{"name", mesh.name}, {"layout", mesh.layout}};
+  if (mesh.layout == transfer::kNoLayout) {
+    d.text = fmt::format("  {}: a mirror, records no transfer\n", called);
+    return d;
+  }
+  d.json["receivers"] = mesh.receivers;
+  if (mesh.biScale) {
+    const Description biScale = describe(*mesh.biScale, mesh.receivers);
+    d.text = fmt::format("  {}: {}", called, biScale.text);
+    d.json["bi_scale"] = biScale.json;
+    return d;
+  }
+  const auto& [vectors, matrices, shadowed] = std::tie(mesh.vectors, mesh.matrices, mesh.shadowed);
+  const auto vectorShape = [&](int channels) {
+    return fmt::format(" vectors {}x{}", channels, vectors->bands * vectors->bands);
+  };
+  const auto matrixShape = [&](int channels) {
+    return fmt::format(" matrices {}x{}x{}", channels, matrices->outBands * matrices->outBands,
+                       matrices->inBands * matrices->inBands);
+  };
+  std::string what;
+  if (vectors) what += "," + vectorShape(vectors->channels);
+  if (matrices)
+    what += fmt::format(",{}, lobe exponent {:.4g}", matrixShape(matrices->channels),
+                        matrices->lobeExponent);
+  if (shadowed) {
+    what += ", shadowed beside:";
+    if (vectors) what += vectorShape(shadowed->channels);
+    if (matrices) what += (vectors ? "," : "") + matrixShape(shadowed->matrixChannels);
+  }
+  const transfer::Encoding encoding = vectors    ? vectors->encoding
+                                      : matrices ? matrices->encoding
+                                                 : transfer::Encoding::Float32;
+  const std::string where = mesh.width > 0
+                                ? fmt::format("{}x{} texels", mesh.width, mesh.height)
+                                : fmt::format("{} vertices", formatCount(mesh.receivers));
+  d.text = fmt::format("  {}: {}{}, {}\n", called, where, what, nameOf(encoding));
+  d.json.update({{"width", mesh.width},
+                 {"height", mesh.height},
+                 {"encoding", nameOf(encoding)},
+                 {"vector_bands", vectors ? vectors->bands : 0},
+                 {"vector_channels", vectors ? vectors->channels : 0},
+                 {"matrix_out_bands", matrices ? matrices->outBands : 0},
+                 {"matrix_in_bands", matrices ? matrices->inBands : 0},
+                 {"matrix_channels", matrices ? matrices->channels : 0},
+                 {"shadowed", shadowed.has_value()},
+                 {"shadowed_vector_channels", shadowed ? shadowed->channels : 0},
+                 {"shadowed_matrix_channels", shadowed ? shadowed->matrixChannels : 0}});
   return d;
 }
 
 }  // namespace
 
-Description describe(const encode::EncodedField& transfer, const scene::Scene& scene) {
+Description describe(const asset::Asset& asset) {
+  const asset::Summary transfer = asset::summarize(asset);
   Description d;
   d.text = fmt::format("{} transfer for light of {} bands, {} directions, {} bounces, seed {}\n",
                        nameOf(transfer.kind), transfer.bands, formatCount(transfer.directions),
@@ -194,64 +221,13 @@ Description describe(const encode::EncodedField& transfer, const scene::Scene& s
     d.text += '\n';
   }
   Json meshes = Json::array();
-  for (std::size_t i = 0; i < transfer.meshes.size(); ++i) {
-    const encode::EncodedMesh& mesh = transfer.meshes[i];
-    const std::string name = i < scene.meshes.size() ? scene.meshes[i].name : std::string();
-    const std::string called = name.empty() ? "(no name)" : name;
-    if (mesh.layout == transport::Layout::None) {
-      d.text += fmt::format("  {}: a mirror, records no transfer\n", called);
-      meshes.push_back({{"name", name}, {"layout", nameOf(mesh.layout)}});
-      continue;
-    }
-    if (mesh.biScale) {
-      const Description biScale = describe(*mesh.biScale, mesh.receiverCount());
-      d.text += fmt::format("  {}: {}", called, biScale.text);
-      Json json = {
-          {"name", name}, {"layout", nameOf(mesh.layout)}, {"receivers", mesh.receiverCount()}};
-      json["bi_scale"] = biScale.json;
-      meshes.push_back(json);
-      continue;
-    }
-    const encode::Numbers& any = mesh.vectors.empty() ? mesh.matrices : mesh.vectors;
-    std::string what;
-    if (!mesh.vectors.empty())
-      what += fmt::format(", vectors {}x{}", mesh.channels, mesh.bands * mesh.bands);
-    if (!mesh.matrices.empty())
-      what += fmt::format(", matrices {}x{}x{}, lobe exponent {:.4g}", mesh.matrixChannels,
-                          mesh.outBands * mesh.outBands, mesh.inBands * mesh.inBands,
-                          mesh.lobeExponent);
-    if (!mesh.shadowed.empty()) {
-      what += ", shadowed beside:";
-      if (!mesh.shadowed.vectors.empty())
-        what += fmt::format(" vectors {}x{}", mesh.shadowed.channels, mesh.bands * mesh.bands);
-      if (!mesh.shadowed.matrices.empty())
-        what += fmt::format("{} matrices {}x{}x{}", mesh.shadowed.vectors.empty() ? "" : ",",
-                            mesh.shadowed.matrixChannels, mesh.outBands * mesh.outBands,
-                            mesh.inBands * mesh.inBands);
-    }
-    const std::string where = mesh.layout == transport::Layout::Texels
-                                  ? fmt::format("{}x{} texels", mesh.width, mesh.height)
-                                  : fmt::format("{} vertices", formatCount(mesh.receiverCount()));
-    d.text += fmt::format("  {}: {}{}, {}\n", called, where, what, nameOf(any.encoding));
-    meshes.push_back(
-        {{"name", name},
-         {"layout", nameOf(mesh.layout)},
-         {"receivers", mesh.receiverCount()},
-         {"width", mesh.width},
-         {"height", mesh.height},
-         {"encoding", nameOf(any.encoding)},
-         {"vector_bands", mesh.vectors.empty() ? 0 : mesh.bands},
-         {"vector_channels", mesh.vectors.empty() ? 0 : mesh.channels},
-         {"matrix_out_bands", mesh.matrices.empty() ? 0 : mesh.outBands},
-         {"matrix_in_bands", mesh.matrices.empty() ? 0 : mesh.inBands},
-         {"matrix_channels", mesh.matrices.empty() ? 0 : mesh.matrixChannels},
-         {"shadowed", !mesh.shadowed.empty()},
-         {"shadowed_vector_channels", mesh.shadowed.vectors.empty() ? 0 : mesh.shadowed.channels},
-         {"shadowed_matrix_channels",
-          mesh.shadowed.matrices.empty() ? 0 : mesh.shadowed.matrixChannels}});
+  for (const asset::MeshSummary& mesh : transfer.meshes) {
+    const Description one = describe(mesh);
+    d.text += one.text;
+    meshes.push_back(one.json);
   }
   Json rtts = Json::array();
-  for (const encode::EncodedRtt& rtt : transfer.rtts) {
+  for (const asset::RttSummary& rtt : transfer.rtts) {
     const Description one = describe(rtt);
     d.text += "  " + one.text;
     rtts.push_back(one.json);
@@ -267,8 +243,7 @@ Description describe(const encode::EncodedField& transfer, const scene::Scene& s
   return d;
 }
 
-Description describe(const encode::EncodedRtt& rtt) {
-  const asset::RttSummary summary = asset::summarize(rtt);
+Description describe(const asset::RttSummary& rtt) {
   const std::string views =
       rtt.views > 1 ? fmt::format("{}x{} views", rtt.views, rtt.views) : std::string("no views");
   Description d;
@@ -276,13 +251,12 @@ Description describe(const encode::EncodedRtt& rtt) {
       "patch {}: {}x{} positions, {}, light of {} bands, {:.4g}x{:.4g} m, {:.3g} m "
       "deep, {}, {}\n",
       rtt.name.empty() ? "(no name)" : rtt.name, rtt.width, rtt.height, views, rtt.bands,
-      rtt.size.x(), rtt.size.y(), rtt.depth, nameOf(rtt.values.encoding),
-      formatBytes(double(summary.bytes)));
-  d.json = {{"name", rtt.name},      {"width", rtt.width},
-            {"height", rtt.height},  {"views", rtt.views},
-            {"bands", rtt.bands},    {"size", {rtt.size.x(), rtt.size.y()}},
-            {"depth", rtt.depth},    {"encoding", nameOf(rtt.values.encoding)},
-            {"bytes", summary.bytes}};
+      rtt.size.x(), rtt.size.y(), rtt.depth, nameOf(rtt.encoding), formatBytes(double(rtt.bytes)));
+  d.json = {{"name", rtt.name},     {"width", rtt.width},
+            {"height", rtt.height}, {"views", rtt.views},
+            {"bands", rtt.bands},   {"size", {rtt.size.x(), rtt.size.y()}},
+            {"depth", rtt.depth},   {"encoding", nameOf(rtt.encoding)},
+            {"bytes", rtt.bytes}};
   return d;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/lambent/console.h"
-#include "lambent/encode/encoded_field.h"
+#include "lambent/asset/summary.h"
 #include "lambent/image/image.h"
 #include "lambent/scene/scene.h"
 #include "lambent/sh/coefficients.h"
@@ -18,14 +18,11 @@ struct Description {
 };
 
 Description describe(const scene::Scene& scene);
-Description describe(const encode::EncodedField& transfer, const scene::Scene& scene);
-Description describe(const encode::EncodedRtt& rtt);
+/// Of its transfer alone.
+Description describe(const asset::Asset& asset);
+Description describe(const asset::RttSummary& rtt);
 Description describe(const sh::RgbCoefficients& light);
 Description describe(const image::Image& image);
 
 Json asJson(const Rgb& rgb);
-std::string_view nameOf(transport::TransferKind kind);
-std::string_view nameOf(transport::Layout layout);
-std::string_view nameOf(encode::Encoding encoding);
-
 }  // namespace lambent::tool

@@ -12,6 +12,7 @@
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
 #include "lambent/asset/rtt_file.h"
+#include "lambent/asset/summary.h"
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/io.h"
 #include "lambent/light/environment.h"
@@ -43,7 +44,7 @@ Result<Whole> describeModel(const std::filesystem::path& path, Console& console)
       const auto asset = asset::read(path);
       if (!asset) return asset.error();
       Description scene = describe(asset->scene);
-      const Description transfer = describe(asset->transfer, asset->scene);
+      const Description transfer = describe(*asset);
       scene.text += transfer.text;
       scene.json["transfer"] = transfer.json;
       return Whole{"asset", scene};
@@ -83,7 +84,7 @@ Result<Whole> describeFile(const std::filesystem::path& path, Console& console) 
   if (extension == ".rtt") {
     const auto rtt = asset::readRtt(path);
     if (!rtt) return rtt.error();
-    return Whole{"radiance transfer texture", describe(*rtt)};
+    return Whole{"radiance transfer texture", describe(asset::summarize(*rtt))};
   }
   if (extension == ".exr" || extension == ".hdr" || extension == ".png") return describeImage(path);
   if (extension == ".json") {

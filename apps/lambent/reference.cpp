@@ -16,7 +16,6 @@
 #include "apps/lambent/state_arguments.h"
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
-#include "lambent/asset/names.h"
 #include "lambent/image/io.h"
 #include "lambent/reference/path_tracer.h"
 #include "lambent/sources/source.h"
@@ -34,7 +33,7 @@ struct Arguments {
   ViewArguments view;
   DevelopmentArguments development;
   reference::PathTraceOptions options;
-  transport::TransferKind transfer = transport::TransferKind::Interreflected;
+  transfer::Kind transfer = transfer::Kind::Interreflected;
   int bands = 0;
   std::optional<Vec3> eye;
   const CLI::App* app = nullptr;
@@ -122,9 +121,7 @@ Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
 /// What the state says where no flag does: the material's lobe, and which transport there is.
 void take(const view::ViewState& state, Arguments& arguments) {
   if (!arguments.given("--lobe")) arguments.scene.lobeExponent = state.lobe;
-  if (!arguments.given("--transfer"))
-    if (const auto kind = asset::transferKindNamed(shade::nameOf(state.transfer)))
-      arguments.transfer = *kind;  // of any but the best that there is
+  if (!arguments.given("--transfer") && state.transfer) arguments.transfer = *state.transfer;
   arguments.view.background = arguments.view.background || state.background;
 }
 
@@ -178,8 +175,8 @@ Status runReference(Arguments arguments, Console& console) {
   if (!rays) return rays.error();
 
   reference::PathTraceOptions& options = arguments.options;
-  options.shadows = arguments.transfer != transport::TransferKind::Unshadowed;
-  if (arguments.transfer != transport::TransferKind::Interreflected) options.bounces = 0;
+  options.shadows = arguments.transfer != transfer::Kind::Unshadowed;
+  if (arguments.transfer != transfer::Kind::Interreflected) options.bounces = 0;
   options.background = arguments.view.background;
   options.threads = console.options().threads;
   if (asksForReceivers(arguments.output))

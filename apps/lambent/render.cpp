@@ -7,18 +7,17 @@
 #include <memory>
 
 #include "apps/lambent/arguments.h"
-#include "apps/lambent/bi_scale_arguments.h"
-#include "apps/lambent/choice_arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/picture_arguments.h"
+#include "apps/lambent/showing_arguments.h"
 #include "apps/lambent/state_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
 #include "lambent/image/io.h"
+#include "lambent/reference/relit_picture.h"
 #include "lambent/render/gl_picture.h"
-#include "lambent/shade/picture.h"
 #include "lambent/sources/source.h"
 #include "lambent/view/placement.h"
 
@@ -40,9 +39,7 @@ struct Arguments {
   DevelopmentArguments development;
   Backend backend = Backend::Gl;
   int samples = 16;
-  std::optional<double> lobeExponent;
-  ChoiceArguments choice;
-  BiScaleArguments biScale;
+  ShowingArguments showing;
   const CLI::App* app = nullptr;
 
   bool given(const char* option) const { return app->count(option) > 0; }
@@ -68,9 +65,7 @@ shade::PictureOptions pictureOptions(const Arguments& arguments) {
   options.height = arguments.view.size.height;
   options.samples = arguments.samples;
   options.background = arguments.view.background;
-  if (arguments.lobeExponent) options.lobeExponent = float(*arguments.lobeExponent);
-  options.transfer = arguments.choice.choice();
-  options.biScale = arguments.biScale.options();
+  options.showing = arguments.showing.showing();
   return options;
 }
 
@@ -79,12 +74,7 @@ shade::PictureOptions pictureOptions(const Arguments& arguments, const view::Vie
   const shade::PictureOptions told = pictureOptions(arguments);
   shade::PictureOptions options = view::pictureOptions(state, told.width, told.height);
   if (arguments.given("--samples")) options.samples = told.samples;
-  if (arguments.given("--lobe")) options.lobeExponent = told.lobeExponent;
-  if (arguments.given("--transfer")) options.transfer = told.transfer;
-  if (arguments.given("--macro")) options.biScale.macro = told.biScale.macro;
-  if (arguments.given("--view-dependence"))
-    options.biScale.viewDependent = told.biScale.viewDependent;
-  options.biScale.filter = told.biScale.filter;
+  options.showing = arguments.showing.showing(*arguments.app, state);
   return options;
 }
 
@@ -117,8 +107,9 @@ Status runRender(Arguments arguments, Console& console) {
 
   const shade::PictureOptions options =
       state ? pictureOptions(arguments, *state) : pictureOptions(arguments);
-  if (Status s = checkHeld(*asset, options.transfer, arguments.asset); !s) return s;
-  const auto backend = arguments.backend == Backend::Gl ? &render::picture : &shade::picture;
+  if (Status s = checkHeld(*asset, options.showing, arguments.asset); !s) return s;
+  const auto backend =
+      arguments.backend == Backend::Gl ? &render::picture : &reference::relitPicture;
   const auto began = std::chrono::steady_clock::now();
   auto picture =
       backend(*asset, shot->light, shot->environment, shot->camera, options, console.progress());
@@ -183,14 +174,9 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
       ->option_text("N")
       ->capture_default_str()
       ->group("Picture");
-  app->add_option("--lobe", arguments->lobeExponent,
-                  "Exponent of glossy lobes instead of the baked material's")
-      ->check(CLI::Range(0.0, 1e5))
-      ->option_text("EXPONENT")
-      ->group("Picture");
-  arguments->choice.addTo(*app);
-  arguments->biScale.addTo(*app);
-  arguments->biScale.addFilterTo(*app);
+  arguments->showing.addLobeTo(*app, "Picture");
+  arguments->showing.addTo(*app);
+  arguments->showing.addFilterTo(*app);
   arguments->development.addTo(*app);
   arguments->light.addWindowTo(*app);
   addCommonOptions(*app, common);

@@ -12,9 +12,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/verbs.h"
-#include "lambent/asset/names.h"
 #include "lambent/asset/rtt_file.h"
-#include "lambent/encode/encoded_field.h"
 #include "lambent/image/io.h"
 #include "lambent/meso/acquired.h"
 #include "lambent/meso/build_rtt.h"
@@ -23,6 +21,8 @@
 #include "lambent/meso/load_patch.h"
 #include "lambent/meso/preview.h"
 #include "lambent/tone/tone_curve.h"
+#include "lambent/transfer/encode.h"
+#include "lambent/transfer/names.h"
 
 namespace lambent::tool {
 
@@ -36,7 +36,7 @@ struct Arguments {
   std::string patch;
   std::filesystem::path output, previewPath, patchPath;
   std::string size, positions = "64x64", lights = "8x16";
-  encode::Encoding encoding = encode::Encoding::Snorm8;
+  transfer::Encoding encoding = transfer::Encoding::Snorm8;
   std::optional<Rgb> albedo, backing, gloss;
   std::optional<double> depth, lobe;
   meso::RttOptions rtt;
@@ -113,20 +113,6 @@ Result<meso::Patch> makePatch(const Arguments& arguments, const std::optional<Ve
   return std::move(loaded->value);
 }
 
-double rootMeanSquare(std::span<const float> values) {
-  double sum = 0.0;
-  for (const float v : values) sum += double(v) * v;
-  return std::sqrt(sum / double(std::max<std::size_t>(values.size(), 1)));
-}
-
-/// The root mean square of what encoding changed, relative to that of the values.
-double encodingError(const meso::RadianceTransferTexture& rtt, const encode::EncodedRtt& encoded) {
-  std::vector<float> difference = encode::decode(encoded.values);
-  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= rtt.values[i];
-  const double scale = rootMeanSquare(rtt.values);
-  return scale > 0.0 ? rootMeanSquare(difference) / scale : 0.0;
-}
-
 Status runRtt(Arguments arguments, Console& console) {
   if (Status fine = checkOutput(arguments.output, {".rtt"}, arguments.patch); !fine) return fine;
   if (!arguments.previewPath.empty())
@@ -144,7 +130,7 @@ Status runRtt(Arguments arguments, Console& console) {
   options.threads = console.options().threads;
 
   meso::RttCost cost;
-  Result<WithFindings<meso::RadianceTransferTexture>> built = failed("nothing was built");
+  Result<WithFindings<transfer::SimulatedRtt>> built = failed("nothing was built");
   const bool measured = !isGenerator(arguments.patch) && isBtf(arguments.patch);
   if (measured) {
     if (!arguments.patchPath.empty())
@@ -174,11 +160,11 @@ Status runRtt(Arguments arguments, Console& console) {
   }
   if (!built) return built.error();
   console.report(built->findings);
-  const meso::RadianceTransferTexture& rtt = built->value;
+  const transfer::SimulatedRtt& rtt = built->value;
 
-  const encode::EncodedRtt encoded =
-      console.stage("encode", [&] { return encode::encode(rtt, arguments.encoding); });
-  const double error = encodingError(rtt, encoded);
+  const transfer::EncodedRtt encoded =
+      console.stage("encode", [&] { return transfer::encode(rtt, arguments.encoding); });
+  const double error = transfer::encodingError(rtt.values, encoded.values);
   const Rgb albedo = meso::effectiveAlbedo(rtt);
   Status status =
       written(console.stage("write", [&] { return asset::writeRtt(encoded, arguments.output); }));
@@ -209,7 +195,7 @@ Status runRtt(Arguments arguments, Console& console) {
        {"depth", rtt.depth},
        {"method", measured ? "measured" : wordOf(options.method, methods())},
        {"bounces", measured ? 0 : options.bounces},
-       {"encoding", asset::nameOf(arguments.encoding)},
+       {"encoding", transfer::nameOf(arguments.encoding)},
        {"encoding_error", error},
        {"effective_albedo", asJson(albedo)},
        {"rays", rays},
@@ -222,7 +208,7 @@ Status runRtt(Arguments arguments, Console& console) {
           "{}{} in all\n{}",
           arguments.output.string(), formatBytes(double(bytes)), rtt.width, rtt.height, rtt.views,
           rtt.views, rtt.bands, double(rtt.size.x()), double(rtt.size.y()), double(rtt.depth),
-          albedo[0], albedo[1], albedo[2], asset::nameOf(arguments.encoding), 100.0 * error,
+          albedo[0], albedo[1], albedo[2], transfer::nameOf(arguments.encoding), 100.0 * error,
           rays > 0 ? formatCount(rays) + " rays, " : std::string(), formatSeconds(seconds), times));
   return Status::ok();
 }
@@ -351,9 +337,9 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
       ->group(kRtt);
 
   addChoice(*app, "--encoding", arguments->encoding,
-            {{"snorm8", encode::Encoding::Snorm8},
-             {"float16", encode::Encoding::Float16},
-             {"float32", encode::Encoding::Float32}},
+            {{"snorm8", transfer::Encoding::Snorm8},
+             {"float16", transfer::Encoding::Float16},
+             {"float32", transfer::Encoding::Float32}},
             "snorm8 (as textures on a GPU), float16, or float32 for exact round trips")
       ->option_text("KIND")
       ->group("Output");

@@ -8,15 +8,13 @@
 #include <memory>
 
 #include "apps/lambent/arguments.h"
-#include "apps/lambent/bi_scale_arguments.h"
-#include "apps/lambent/choice_arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/receiver_file.h"
+#include "apps/lambent/showing_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
-#include "lambent/shade/check_bi_scale.h"
 #include "lambent/sources/source.h"
 
 namespace lambent::tool {
@@ -27,9 +25,7 @@ struct Arguments {
   std::filesystem::path asset, output;
   LightArguments light;
   std::optional<Vec3> eye;
-  std::optional<double> lobeExponent;
-  ChoiceArguments choice;
-  BiScaleArguments biScale;
+  ShowingArguments showing;
 };
 
 constexpr std::string_view kExamples = R"(
@@ -52,21 +48,18 @@ Status runShade(const Arguments& arguments, Console& console) {
   const auto light = arguments.light.coefficients(*environment, asset->transfer.bands, console);
   if (!light) return light.error();
 
-  shade::View view;
-  view.eye = arguments.eye;
-  if (arguments.lobeExponent) view.lobeExponent = float(*arguments.lobeExponent);
-  view.transfer = arguments.choice.choice();
-  if (Status s = checkHeld(*asset, view.transfer, arguments.asset); !s) return s;
-  view.biScale = arguments.biScale.options();
-  if (Status s = shade::checkBiScale(*asset, view.biScale); !s) return s;
+  const shade::ReceiverView view{arguments.eye, arguments.showing.showing()};
+  if (Status s = checkHeld(*asset, view.showing, arguments.asset); !s) return s;
   const ReceiverFile file = console.stage("shade", [&] {
     ReceiverFile all;
     for (std::uint32_t m = 0; m < asset->transfer.meshes.size(); ++m) {
-      const encode::EncodedMesh& mesh = asset->transfer.meshes[m];
+      const transfer::Receivers* receivers = transfer::receiversOf(asset->transfer.meshes[m]);
+      if (!receivers) continue;
+      const transfer::AtTexels* grid = receivers->texels();
       const std::vector<Rgb> radiance = shade::exitRadiance(*asset, m, *light, view);
       for (std::size_t i = 0; i < radiance.size(); ++i)
-        if (mesh.covered.empty() || mesh.covered[i])
-          all.receivers.push_back({mesh.positions[i], mesh.normals[i], radiance[i]});
+        if (!grid || grid->covered[i])
+          all.receivers.push_back({receivers->positions[i], receivers->normals[i], radiance[i]});
     }
     return all;
   });
@@ -108,13 +101,8 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
             "Where the viewer stands. Without it every receiver is seen along its normal")
       ->option_text("X,Y,Z")
       ->group("View");
-  app->add_option("--lobe", arguments->lobeExponent,
-                  "Exponent of glossy lobes instead of the baked material's")
-      ->check(CLI::Range(0.0, 1e5))
-      ->option_text("EXPONENT")
-      ->group("View");
-  arguments->choice.addTo(*app);
-  arguments->biScale.addTo(*app);
+  arguments->showing.addLobeTo(*app, "View");
+  arguments->showing.addTo(*app);
   arguments->light.addWindowTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runShade(*arguments, console); }};

@@ -16,6 +16,8 @@
 #include "lambent/asset/rtt_file.h"
 #include "lambent/bi_scale/spread_patch.h"
 #include "lambent/meso/effective_albedo.h"
+#include "lambent/transfer/encode.h"
+#include "lambent/transfer/names.h"
 
 namespace lambent::tool {
 
@@ -136,26 +138,25 @@ Status run(Arguments arguments, Console& console) {
   options.transfer = arguments.transfer.chosen(console);
   options.transfer.bands = rtt->bands;
   options.seed = options.transfer.seed;
-  options.albedo = meso::effectiveAlbedo(encode::decode(*rtt));
+  options.albedo = meso::effectiveAlbedo(transfer::decode(*rtt));
 
-  Findings findings;
-  auto spread =
-      bi_scale::spreadPatch(std::move(*scene), *rtt, options, console.progress(), findings);
-  console.report(findings);
-  if (!spread && spread.error().kind == ErrorKind::BadInput)
-    return badInput(arguments.scene.path.string() + ": " + spread.error().message);
-  if (!spread) return spread.error();
+  auto made = bi_scale::spreadPatch(std::move(*scene), *rtt, options, console.progress());
+  if (!made && made.error().kind == ErrorKind::BadInput)
+    return badInput(arguments.scene.path.string() + ": " + made.error().message);
+  if (!made) return made.error();
+  console.report(made->findings);
+  const bi_scale::Spread& spread = made->value;
 
-  Status status = written(
-      console.stage("write", [&] { return asset::write(spread->asset, arguments.output); }));
+  Status status =
+      written(console.stage("write", [&] { return asset::write(spread.asset, arguments.output); }));
   if (!status) return status;
   if (!arguments.atlasPicture.empty()) {
-    if (spread->atlases.empty())
+    if (spread.atlases.empty())
       console.warn("no-atlas", "--atlas-picture: with --map uv there is no atlas to show");
     else
       status = written(console.stage("atlas picture", [&] {
-        return writeAtlasPicture(spread->atlases.front(), spread->asset,
-                                 spread->reports.front().mesh, arguments.atlasPicture);
+        return writeAtlasPicture(spread.atlases.front(), spread.asset, spread.reports.front().mesh,
+                                 arguments.atlasPicture);
       }));
     if (!status) return status;
   }
@@ -165,11 +166,11 @@ Status run(Arguments arguments, Console& console) {
   const std::uintmax_t bytes = std::filesystem::file_size(arguments.output, ignored);
   std::string reports;
   Json reportsJson = Json::array();
-  for (const bi_scale::SpreadReport& report : spread->reports) {
+  for (const bi_scale::SpreadReport& report : spread.reports) {
     reports += reportText(report);
     reportsJson.push_back(asJson(report));
   }
-  const Description transfer = describe(spread->asset.transfer, spread->asset.scene);
+  const Description transfer = describe(spread.asset);
   console.finish({{"output", arguments.output.string()},
                   {"bytes", bytes},
                   {"seconds", seconds},
@@ -263,9 +264,9 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->group("Atlas");
   arguments->transfer.addTo(*app);
   addChoice(*app, "--encoding", options.matrixEncoding,
-            {{"snorm8", encode::Encoding::Snorm8},
-             {"float16", encode::Encoding::Float16},
-             {"float32", encode::Encoding::Float32}},
+            {{"snorm8", transfer::Encoding::Snorm8},
+             {"float16", transfer::Encoding::Float16},
+             {"float32", transfer::Encoding::Float32}},
             "Of the matrices: snorm8 (a byte, and a scale for each matrix), float16, float32")
       ->option_text("KIND")
       ->group("Output");

@@ -4,8 +4,8 @@
 
 namespace lambent::tool {
 
-Choices<transport::TransferKind> transferKinds() {
-  using Kind = transport::TransferKind;
+Choices<transfer::Kind> transferKinds() {
+  using Kind = transfer::Kind;
   return {{"unshadowed", Kind::Unshadowed},
           {"shadowed", Kind::Shadowed},
           {"interreflected", Kind::Interreflected}};
@@ -52,7 +52,7 @@ void TransferArguments::addTo(CLI::App& app) {
 }
 
 Status TransferArguments::check() const {
-  if (options.keepShadowed && options.kind != transport::TransferKind::Interreflected)
+  if (options.keepShadowed && options.kind != transfer::Kind::Interreflected)
     return badUsage(
         "--keep-shadowed keeps shadowed transfer beside interreflected: with --transfer " +
         wordOf(options.kind, transferKinds()) + " there is nothing to keep it beside");

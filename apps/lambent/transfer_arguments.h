@@ -8,7 +8,7 @@
 namespace lambent::tool {
 
 /// unshadowed, shadowed, interreflected.
-Choices<transport::TransferKind> transferKinds();
+Choices<transfer::Kind> transferKinds();
 
 struct TransferArguments {
   macro::BakeOptions options;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kStep = 10.0 * kPi / 180.0;  // of an arrow key
 constexpr int kShift = GLFW_MOD_SHIFT, kCtrl = GLFW_MOD_CONTROL;
-using Choice = shade::TransferChoice;
+using Choice = std::optional<transfer::Kind>;
 
 void orbit(Session& session, const PixelSize& picture, double azimuth, double elevation) {
   view::LookAt& hand = session.hand(picture);
@@ -164,26 +164,28 @@ std::vector<Action> makeActions() {
        shown,
        "unshadowed",
        [](S s, P) {
-         choose(s, Choice::Unshadowed, s.stage.possibilities().unshadowed, "unshadowed");
+         choose(s, transfer::Kind::Unshadowed, s.stage.possibilities().unshadowed, "unshadowed");
        }},
       {"2",
        {GLFW_KEY_2, 0},
        shown,
        "with shadows",
-       [](S s, P) { choose(s, Choice::Shadowed, s.stage.possibilities().shadowed, "shadowed"); }},
+       [](S s, P) {
+         choose(s, transfer::Kind::Shadowed, s.stage.possibilities().shadowed, "shadowed");
+       }},
       {"3",
        {GLFW_KEY_3, 0},
        shown,
        "with interreflections",
        [](S s, P) {
-         choose(s, Choice::Interreflected, s.stage.possibilities().interreflected,
+         choose(s, transfer::Kind::Interreflected, s.stage.possibilities().interreflected,
                 "interreflected");
        }},
       {"0",
        {GLFW_KEY_0, 0},
        shown,
        "the best that the asset holds",
-       [](S s, P) { s.state.transfer = Choice::Best; }},
+       [](S s, P) { s.state.transfer = Choice(); }},
       {"M",
        {GLFW_KEY_M, 0},
        shown,

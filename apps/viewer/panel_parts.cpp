@@ -43,7 +43,7 @@ void drawDiscs(Session& session, SkyMap& sky) {
 }
 
 void drawTransfer(Session& session) {
-  using Choice = shade::TransferChoice;
+  using Choice = std::optional<transfer::Kind>;
   const Possibilities can = session.stage.possibilities();
   const struct {
     const char* name;
@@ -51,11 +51,11 @@ void drawTransfer(Session& session) {
     bool offered;
     const char* why;
   } choices[] = {
-      {"best", Choice::Best, true, ""},
-      {"unshadowed", Choice::Unshadowed, can.unshadowed, "This asset records no transfer"},
-      {"shadowed", Choice::Shadowed, can.shadowed,
+      {"best", Choice(), true, ""},
+      {"unshadowed", transfer::Kind::Unshadowed, can.unshadowed, "This asset records no transfer"},
+      {"shadowed", transfer::Kind::Shadowed, can.shadowed,
        "The asset does not hold it: lambent bake --keep-shadowed keeps it"},
-      {"interreflected", Choice::Interreflected, can.interreflected,
+      {"interreflected", transfer::Kind::Interreflected, can.interreflected,
        "The asset does not hold it: lambent bake --transfer interreflected"},
   };
   int column = 0;

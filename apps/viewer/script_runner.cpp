@@ -220,7 +220,7 @@ Status ScriptRunner::set(const std::string& name, const std::string& value, Scen
     return Status::ok();
   }
   if (name == "transfer") {
-    const auto choice = shade::transferChoiceNamed(value);
+    const auto choice = shade::choiceNamed(value);
     if (!choice)
       return badInput(
           fmt::format("'{}' is not best, unshadowed, shadowed or interreflected", value));

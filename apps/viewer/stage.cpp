@@ -1,22 +1,13 @@
 #include "apps/viewer/stage.h"
 
 #include "lambent/scene/camera.h"
-#include "lambent/shade/transfer_choice.h"
+#include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
 #include "lambent/view/placement.h"
 
 namespace lambent::viewer {
 
 namespace {
-
-render::LiveOptions liveOptions(const view::ViewState& state) {
-  const shade::PictureOptions picture = view::pictureOptions(state, 1, 1);
-  render::LiveOptions options;
-  options.transfer = state.transfer;
-  options.lobeExponent = picture.lobeExponent;
-  options.biScale = picture.biScale;
-  return options;
-}
 
 bool sameOptions(const view::ViewState& a, const view::ViewState& b) {
   return a.transfer == b.transfer && a.lobe == b.lobe && a.macro == b.macro &&
@@ -30,14 +21,17 @@ bool sameRadiance(view::ViewState a, const view::ViewState& b) {
 }
 
 Possibilities possibilitiesOf(const asset::Asset& asset) {
-  using Choice = shade::TransferChoice;
+  using transfer::Kind, transfer::Numbers;
   Possibilities result;
-  result.unshadowed = shade::offers(asset, Choice::Unshadowed);
-  result.shadowed = shade::offers(asset, Choice::Shadowed);
-  result.interreflected = shade::offers(asset, Choice::Interreflected);
-  for (const encode::EncodedMesh& mesh : asset.transfer.meshes) {
-    result.mesoStructure = result.mesoStructure || mesh.biScale.has_value();
-    result.glossy = result.glossy || !mesh.matrices.empty();
+  result.unshadowed = shade::offers(asset, Kind::Unshadowed);
+  result.shadowed = shade::offers(asset, Kind::Shadowed);
+  result.interreflected = shade::offers(asset, Kind::Interreflected);
+  for (const transfer::EncodedMesh& mesh : asset.transfer.meshes) {
+    if (std::holds_alternative<transfer::BiScale<Numbers>>(mesh)) result.mesoStructure = true;
+    if (const auto* surface = std::get_if<transfer::Surface<Numbers>>(&mesh))
+      surface->responses.each([&](Kind, const auto& response) {
+        result.glossy = result.glossy || response.glossy.has_value();
+      });
   }
   return result;
 }
@@ -55,7 +49,7 @@ render::LiveView liveView(const view::ViewState& state, const scene::Camera& cam
 }  // namespace
 
 Status Stage::show(LoadedAsset loaded, const view::ViewState& state) {
-  auto renderer = render::LiveRenderer::make(*loaded.asset, liveOptions(state));
+  auto renderer = render::LiveRenderer::make(*loaded.asset, view::showingOf(state));
   if (!renderer) return renderer.error();
   if (surroundings_)
     if (Status s = surroundings_->attach(*renderer, *loaded.asset); !s) return s;
@@ -121,7 +115,7 @@ Status Stage::hangBackdrop(const view::ViewState& state) {
 
 Status Stage::prepare(const view::ViewState& state, const PixelSize& size, bool moving) {
   if (!options_ || !sameOptions(*options_, state)) {
-    if (Status s = renderer_->choose(liveOptions(state)); !s) return s;
+    if (Status s = renderer_->choose(view::showingOf(state)); !s) return s;
     options_ = state;
   }
   if (size != size_) {

@@ -1,10 +1,10 @@
 // 3. Transfer: simulate once how light moves over a scene, then relight it with a dot product.
 #include <lambent/asset/asset.h>
-#include <lambent/encode/encoded_field.h>
 #include <lambent/light/environment.h>
 #include <lambent/macro/bake.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/shade/shade.h>
+#include <lambent/transfer/encode.h>
 
 #include <cstdio>
 
@@ -30,7 +30,7 @@ int main() {
   // The bake knows no light yet. It asks, at every receiver: how would you answer to each of the 25
   // basis lights? Its findings tell what was odd about the scene.
   macro::BakeOptions options;
-  options.kind = transport::TransferKind::Interreflected;
+  options.kind = transfer::Kind::Interreflected;
   options.bands = 5;
   options.directions = 2048;
   options.bounces = 2;
@@ -39,7 +39,7 @@ int main() {
   for (const Finding& finding : field->findings) std::printf("%s\n", finding.message.c_str());
 
   // Half floats are enough to look at; Float32 keeps every bit.
-  const asset::Asset asset{scene, encode::encode(field->value, encode::Encoding::Float16)};
+  const asset::Asset asset{scene, transfer::encode(field->value, transfer::Encoding::Float16)};
 
   // Now relight. Each light costs 25 multiplications per vertex and channel, and no ray.
   Rgb underTheBall = Rgb::Zero(), inTheOpen = Rgb::Zero();

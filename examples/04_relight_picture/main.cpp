@@ -3,15 +3,15 @@
 // usage: 04_relight_picture [ASSET.glb [SOURCE [FOLDER]]]
 // Without an asset it bakes a small scene of its own and writes it as scene.glb first.
 #include <lambent/asset/asset.h>
-#include <lambent/encode/encoded_field.h>
 #include <lambent/image/io.h>
 #include <lambent/macro/bake.h>
+#include <lambent/reference/relit_picture.h>
 #include <lambent/scene/camera.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/sh/rotation.h>
-#include <lambent/shade/picture.h>
 #include <lambent/sources/source.h>
 #include <lambent/tone/tone_curve.h>
+#include <lambent/transfer/encode.h>
 
 #include <Eigen/Geometry>
 #include <cstdio>
@@ -36,7 +36,7 @@ Result<asset::Asset> bakeSmallScene() {
   options.directions = 2048;
   auto field = macro::bake(scene, *rays, *receivers, options, {});
   if (!field) return field.error();
-  return asset::Asset{scene, encode::encode(field->value, encode::Encoding::Float16)};
+  return asset::Asset{scene, transfer::encode(field->value, transfer::Encoding::Float16)};
 }
 
 Status run(int argc, char** argv) {
@@ -62,8 +62,8 @@ Status run(int argc, char** argv) {
     // Turning the light is a product with a small matrix. (Mirrors and backgrounds look the
     // environment up directly: it turns along.)
     const Mat3 turn = Eigen::AngleAxisf(float(frame * kPi / 2), Vec3::UnitY()).toRotationMatrix();
-    const auto picture =
-        shade::picture(*asset, sh::rotate(turn, light), environment.rotated(turn), camera, options);
+    const auto picture = reference::relitPicture(*asset, sh::rotate(turn, light),
+                                                 environment.rotated(turn), camera, options);
     if (!picture) return picture.error();
     const std::filesystem::path path = folder / ("frame" + std::to_string(frame) + ".png");
     const auto developed = tone::toneMap(*picture, 0.0f, tone::Curve::Filmic);

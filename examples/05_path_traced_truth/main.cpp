@@ -4,12 +4,12 @@
 // path tracer must agree up to the noise of both. Their difference over its standard error is a
 // z value, and about 5 of 100 honest ones lie beyond 2.
 #include <lambent/asset/asset.h>
-#include <lambent/encode/encoded_field.h>
 #include <lambent/light/environment.h>
 #include <lambent/macro/bake.h>
 #include <lambent/reference/path_tracer.h>
 #include <lambent/scene/shapes.h>
 #include <lambent/shade/shade.h>
+#include <lambent/transfer/encode.h>
 
 #include <cmath>
 #include <cstdio>
@@ -31,7 +31,7 @@ int main() {
   bakeOptions.bounces = 2;
   const auto field = macro::bake(scene, *rays, *receivers, bakeOptions, {});
   if (!field) return std::fprintf(stderr, "%s\n", field.error().message.c_str()), 1;
-  const asset::Asset asset{scene, encode::encode(field->value, encode::Encoding::Float32)};
+  const asset::Asset asset{scene, transfer::encode(field->value, transfer::Encoding::Float32)};
 
   // The light: a warm disc and an even sky, cut to what the bake can see.
   const auto sky = light::Environment::disc(Vec3(0.6f, 0.8f, 0), 0.6, Rgb(6, 5, 3)) +

@@ -4,15 +4,15 @@
 
 #include <filesystem>
 
-#include "lambent/encode/encoded_field.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::asset {
 
 struct Asset {
   scene::Scene scene;
-  encode::EncodedField transfer;  ///< transfer.meshes[i] belongs to scene.meshes[i]
+  transfer::EncodedField transfer;  ///< transfer.meshes[i] belongs to scene.meshes[i]
 };
 
 /// Writes atomically: the file appears whole or not at all.

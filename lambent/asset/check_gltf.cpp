@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lambent/asset/names.h"
+#include "lambent/asset/format.h"
 #include "lambent/scene_io/gltf_json.h"
 
 namespace lambent::asset {

@@ -8,7 +8,7 @@
 
 #include "lambent/asset/asset.h"
 #include "lambent/asset/check.h"
-#include "lambent/asset/names.h"
+#include "lambent/asset/format.h"
 #include "lambent/asset/samples.h"
 #include "lambent/asset/test_support.h"
 
@@ -161,28 +161,15 @@ TEST_F(AssetHostile, JsonTokensSwapped) {
   }
 }
 
-class BiScaleHostile : public AssetHostile {
- public:
-  BiScaleHostile() : AssetHostile(biScale()) {}
-};
-
-TEST_F(BiScaleHostile, VectorsBesideItAreNotWritten) {
-  asset_.transfer.meshes[0].bands = 3;
-  asset_.transfer.meshes[0].channels = 1;
-  asset_.transfer.meshes[0].vectors =
-      encode::encode(std::vector<float>(36, 0.5f), encode::Encoding::Float32);
-  const Status both = write(asset_, folder_ / "both.glb");
-  ASSERT_FALSE(both);
-  EXPECT_NE(both.error().message.find("no vectors or matrices beside it"), std::string::npos);
-}
-
 class KeptShadowedHostile : public AssetHostile {
  public:
   KeptShadowedHostile() : AssetHostile(keptShadowed()) {}
 };
 
 TEST_F(KeptShadowedHostile, NumbersThatAreNotFinite) {
-  asset_.transfer.meshes[1].shadowed.matrices.single[81 * 2 + 9 * 4 + 7] = std::nanf("");
+  std::get<transfer::Surface<transfer::Numbers>>(asset_.transfer.meshes[1])
+      .responses.find(transfer::Kind::Shadowed)
+      ->glossy->matrices.numbers.single[81 * 2 + 9 * 4 + 7] = std::nanf("");
   const Status status = write(asset_, folder_ / "nan.glb");
   ASSERT_FALSE(status);
   EXPECT_NE(status.error().message.find("shadowed.matrices: not a finite number at receiver 2, "
@@ -198,7 +185,8 @@ TEST_F(KeptShadowedHostile, AReaderThatDoesNotKnowItSeesTheInterreflectedTransfe
   });
   ASSERT_TRUE(without) << without.error().message;
   Asset expected = keptShadowed();
-  for (encode::EncodedMesh& mesh : expected.transfer.meshes) mesh.shadowed = {};
+  for (transfer::EncodedMesh& mesh : expected.transfer.meshes)
+    std::get<transfer::Surface<transfer::Numbers>>(mesh).responses.drop(transfer::Kind::Shadowed);
   test::expectSame(*without, expected);
 }
 

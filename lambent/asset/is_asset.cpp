@@ -8,7 +8,7 @@
 #include <string>
 
 #include "lambent/asset/asset.h"
-#include "lambent/asset/names.h"
+#include "lambent/asset/format.h"
 #include "lambent/file/failure.h"
 
 namespace lambent::asset {

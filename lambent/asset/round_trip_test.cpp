@@ -8,13 +8,25 @@
 #include "lambent/asset/samples.h"
 #include "lambent/asset/test_support.h"
 #include "lambent/sh/rotation.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::asset {
 namespace {
 
-using encode::Encoding;
 using test::Folder;
-using transport::Layout;
+using transfer::Encoding;
+using transfer::Kind;
+using transfer::Numbers;
+using Response = transfer::SurfaceResponse<Numbers>;
+using Surface = transfer::Surface<Numbers>;
+
+Surface& surfaceOf(Asset& asset, std::size_t mesh = 0) {
+  return std::get<Surface>(asset.transfer.meshes[mesh]);
+}
+/// The response that stands in the primitive itself.
+Response& responseOf(Asset& asset, std::size_t mesh = 0) {
+  return *surfaceOf(asset, mesh).responses.find(asset.transfer.kind);
+}
 
 // A 2×2 PNG: red, green, blue, grey.
 constexpr std::uint8_t kPng[] = {
@@ -46,39 +58,38 @@ std::vector<float> randomNumbers(std::size_t count, unsigned seed) {
   return numbers;
 }
 
+enum class Layout { Vertices, Texels };
+
 /// A single mesh of transfer in every shape: random numbers, since here nothing looks at them.
 Asset shaped(Layout layout, Encoding encoding, int bands, int channels, int outBands,
              int matrixChannels) {
   Asset asset = unoccludedSquare();
   asset.transfer.bands = bands;
-  encode::EncodedMesh& mesh = asset.transfer.meshes[0];
+  Surface& surface = surfaceOf(asset);
   if (layout == Layout::Texels) {
-    mesh.layout = layout;
-    mesh.width = 5;
-    mesh.height = 3;
+    transfer::Receivers receivers;
+    transfer::AtTexels grid{5, 3, {}};
     const std::vector<float> places = randomNumbers(15 * 3, 9);
-    mesh.positions.clear();
-    mesh.normals.clear();
     for (std::size_t t = 0; t < 15; ++t) {
-      mesh.positions.emplace_back(places[3 * t], places[3 * t + 1], places[3 * t + 2]);
-      mesh.normals.emplace_back(0.0f, 1.0f, 0.0f);
-      mesh.covered.push_back(t % 4 != 0);
+      receivers.positions.emplace_back(places[3 * t], places[3 * t + 1], places[3 * t + 2]);
+      receivers.normals.emplace_back(0.0f, 1.0f, 0.0f);
+      grid.covered.push_back(t % 4 != 0);
     }
+    receivers.where = grid;
+    surface.receivers = std::make_shared<const transfer::Receivers>(receivers);
   }
-  mesh.bands = bands;
-  mesh.channels = channels;
+  const std::size_t receivers = surface.receivers->size();
   const std::size_t n = std::size_t(bands * bands), rows = std::size_t(outBands * outBands);
-  mesh.vectors =
-      encode::encode(randomNumbers(mesh.receiverCount() * std::size_t(channels) * n, 1), encoding);
-  if (outBands > 0) {
-    mesh.outBands = outBands;
-    mesh.inBands = bands;
-    mesh.matrixChannels = matrixChannels;
-    mesh.glossy = Rgb(0.1f, 0.2f, 0.3f);
-    mesh.lobeExponent = 12.7f;
-    mesh.matrices = encode::encode(
-        randomNumbers(mesh.receiverCount() * std::size_t(matrixChannels) * rows * n, 2), encoding);
-  }
+  Response& response = responseOf(asset);
+  response.diffuse->vectors = {
+      bands, channels,
+      transfer::encode(randomNumbers(receivers * std::size_t(channels) * n, 1), encoding)};
+  if (outBands > 0)
+    response.glossy = {
+        {Rgb(0.1f, 0.2f, 0.3f), 12.7f},
+        {outBands, bands, matrixChannels,
+         transfer::encode(randomNumbers(receivers * std::size_t(matrixChannels) * rows * n, 2),
+                          encoding)}};
   return asset;
 }
 
@@ -106,16 +117,14 @@ TEST(AssetRoundTrip, EveryLayoutEncodingAndChannelIsExact) {
 
 TEST(AssetRoundTrip, VectorsAndMatricesMayDifferInEncoding) {
   Asset asset = shaped(Layout::Vertices, Encoding::Float16, 4, 3, 4, 1);
-  encode::EncodedMesh& mesh = asset.transfer.meshes[0];
-  mesh.vectors = encode::encode(decode(mesh.vectors), Encoding::Float32);
+  Numbers& numbers = responseOf(asset).diffuse->vectors.numbers;
+  numbers = transfer::encode(decode(numbers), Encoding::Float32);
   test::expectSame(throughFile(asset), asset);
 }
 
 TEST(AssetRoundTrip, GlossyWithoutDiffuse) {
   Asset asset = shaped(Layout::Vertices, Encoding::Float16, 4, 1, 4, 1);
-  encode::EncodedMesh& mesh = asset.transfer.meshes[0];
-  mesh.vectors = {};
-  mesh.bands = mesh.channels = 0;
+  responseOf(asset).diffuse.reset();
   test::expectSame(throughFile(asset), asset);
 }
 
@@ -130,7 +139,7 @@ TEST(AssetRoundTrip, TextureBytesAreCarriedAsFound) {
   texture.rgba = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 128, 128, 128, 255};
   asset.scene.textures = {texture};
   asset.scene.materials[0].baseColorTexture = 0;
-  asset.transfer.meshes[0].albedo = transport::Albedo::BaseColor;
+  responseOf(asset).diffuse->albedo = transfer::Albedo::BaseColor;
   test::expectSame(throughFile(asset), asset);
 }
 
@@ -163,39 +172,42 @@ TEST(AssetWrite, RefusesWhatItCouldNotRead) {
     EXPECT_FALSE(std::filesystem::exists(folder / "refused.glb"));
   };
   Asset asset = unoccludedSquare();
-  asset.transfer.meshes[0].vectors.single[9 + 4] = std::nanf("");
+  responseOf(asset).diffuse->vectors.numbers.single[9 + 4] = std::nanf("");
   refused(asset,
           "mesh 0 (\"square\"): vectors: not a finite number at receiver 1, channel 0, "
           "coefficient 4");
   asset = everyLayout();
-  asset.transfer.meshes[0].vectors.half[27 * 2 + 9 + 8] = 0x7c00;
+  responseOf(asset).diffuse->vectors.numbers.half[27 * 2 + 9 + 8] = 0x7c00;
   refused(asset, "receiver 2, channel 1, coefficient 8");
   asset = everyLayout();
-  asset.transfer.meshes[2].matrices.single[36 * 3 + 9 * 2 + 5] = 1.0f / 0.0f;
+  responseOf(asset, 2).glossy->matrices.numbers.single[36 * 3 + 9 * 2 + 5] = 1.0f / 0.0f;
   refused(asset, "matrices: not a finite number at receiver 3, channel 0, row 2, column 5");
   asset = unoccludedSquare();
-  asset.transfer.meshes[0].vectors.single.pop_back();
+  responseOf(asset).diffuse->vectors.numbers.single.pop_back();
   refused(asset, "35 numbers where 4 receivers");
   asset = unoccludedSquare();
   asset.transfer.meshes.clear();
   refused(asset, "transfer for 0 meshes");
   asset = unoccludedSquare();
-  asset.transfer.meshes[0].positions[3].x() += 1.0f;
+  transfer::Receivers moved = *surfaceOf(asset).receivers;
+  moved.positions[3].x() += 1.0f;
+  surfaceOf(asset).receivers = std::make_shared<const transfer::Receivers>(moved);
   refused(asset, "receiver 3 does not stand at vertex 3");
   asset = unoccludedSquare();
   asset.transfer.bands = 2;
   refused(asset, "takes light of 3 bands");
   asset = everyLayout();
   asset.scene.meshes[1].normals.clear();
-  refused(asset, "0 normals for 4 vertices with transfer");
+  refused(asset, "0 normals for 4 vertices");
   asset = everyLayout();
   asset.scene.meshes[3].normals[2].x() = std::nanf("");
   refused(asset, "mesh 3 (\"mirror\"): a position, normal, texture coordinate or colour is not");
   asset = biScale();
-  asset.transfer.meshes[1].biScale->tiles.y() = 0.0f;
+  std::get<transfer::BiScale<Numbers>>(asset.transfer.meshes[1]).patch.place =
+      transfer::Tiles{Vec2(1, 0)};
   refused(asset, "biScale.tiles: must be finite and not 0");
   asset = biScale();
-  asset.transfer.meshes[1].biScale->bands = 2;
+  std::get<transfer::BiScale<Numbers>>(asset.transfer.meshes[1]).bands = 2;
   refused(asset, "biScale.bands: is 2, and its RTT's 3");
 
   EXPECT_EQ(write(unoccludedSquare(), folder / "asset.gltf").error().kind, ErrorKind::BadUsage);
@@ -274,18 +286,21 @@ TEST(AssetRoundTrip, ShadowedTransferKeptBesideIsExact) {
       for (int channels : {1, 3})
         for (int outBands : {0, 2}) {
           Asset asset = shaped(layout, encoding, 3, 3, outBands, 3);
-          asset.transfer.kind = transport::TransferKind::Interreflected;
-          encode::EncodedMesh& mesh = asset.transfer.meshes[0];
-          const std::size_t receivers = mesh.receiverCount() * std::size_t(channels);
-          mesh.shadowed.channels = channels;
-          mesh.shadowed.vectors = encode::encode(randomNumbers(receivers * 9, 3), encoding);
-          if (outBands > 0) {
-            mesh.shadowed.matrixChannels = channels;
-            mesh.shadowed.matrices = encode::encode(randomNumbers(receivers * 36, 4), encoding);
-          }
+          asset.transfer.kind = transfer::Kind::Interreflected;
+          Surface& surface = surfaceOf(asset);
+          Response own = *surface.responses.find(Kind::Unshadowed);
+          surface.responses.drop(Kind::Unshadowed);
+          Response kept = own;
+          const std::size_t receivers = surface.receivers->size() * std::size_t(channels);
+          kept.diffuse->vectors = {3, channels,
+                                   transfer::encode(randomNumbers(receivers * 9, 3), encoding)};
+          if (outBands > 0)
+            kept.glossy->matrices = {outBands, 3, channels,
+                                     transfer::encode(randomNumbers(receivers * 36, 4), encoding)};
+          surface.responses.set(Kind::Interreflected, own);
+          surface.responses.set(Kind::Shadowed, kept);
           test::expectSame(throughFile(asset), asset);
-          mesh.vectors = mesh.shadowed.vectors = {};
-          mesh.bands = mesh.channels = mesh.shadowed.channels = 0;
+          surface.responses.each([](Kind, Response& response) { response.diffuse.reset(); });
           if (outBands > 0) test::expectSame(throughFile(asset), asset);
         }
 }
@@ -293,11 +308,12 @@ TEST(AssetRoundTrip, ShadowedTransferKeptBesideIsExact) {
 TEST(AssetRoundTrip, BiScaleInEveryEncoding) {
   for (const Encoding encoding : {Encoding::Float16, Encoding::Float32, Encoding::Snorm8}) {
     Asset asset = biScale();
-    asset.transfer.rtts[0] = encode::encode(decode(asset.transfer.rtts[0]), encoding);
-    encode::EncodedBiScale& patch = *asset.transfer.meshes[0].biScale;
-    patch.channels = 3;
-    patch.interreflected = encode::encode(randomNumbers(4 * 3 * 81, 5), encoding, 81);
-    patch.shadowed = encode::encode(decode(patch.shadowed), encoding, 81);
+    asset.transfer.rtts[0] = transfer::encode(decode(asset.transfer.rtts[0]), encoding);
+    auto& matrices = std::get<transfer::BiScale<Numbers>>(asset.transfer.meshes[0]).matrices;
+    matrices.set(Kind::Interreflected,
+                 {3, 3, 3, transfer::encode(randomNumbers(4 * 3 * 81, 5), encoding, 81)});
+    Numbers& shadowed = matrices.find(Kind::Shadowed)->numbers;
+    shadowed = transfer::encode(decode(shadowed), encoding, 81);
     test::expectSame(throughFile(asset), asset);
   }
 }
@@ -306,7 +322,10 @@ TEST(AssetRoundTrip, TheSamplesRotationIsTheHarmonics) {
   Mat3d tangentFromWorld;  // rows: T = +x, N × T = −z, N = +y
   tangentFromWorld << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   const std::vector<double> rotation = sh::rotationMatrix(3, tangentFromWorld);
-  const std::vector<float> stored = decode(biScale().transfer.meshes[0].biScale->shadowed);
+  const std::vector<float> stored =
+      decode(std::get<transfer::BiScale<Numbers>>(biScale().transfer.meshes[0])
+                 .matrices.find(Kind::Shadowed)
+                 ->numbers);
   for (std::size_t k = 0; k < stored.size(); ++k)
     EXPECT_NEAR(stored[k], rotation[k % 81], 5e-4) << k;
 }

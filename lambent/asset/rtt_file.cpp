@@ -10,19 +10,17 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "lambent/asset/check.h"
 #include "lambent/asset/json_fields.h"
-#include "lambent/asset/names.h"
+#include "lambent/asset/rtt_part.h"
 #include "lambent/file/atomic_file.h"
-#include "lambent/sh/coefficients.h"
+#include "lambent/transfer/names.h"
 
 namespace lambent::asset {
 
 namespace {
 
-using encode::EncodedRtt;
-using encode::Encoding;
-using encode::Numbers;
+using transfer::EncodedRtt;
+using transfer::Encoding;
 
 static_assert(std::endian::native == std::endian::little);
 
@@ -33,16 +31,6 @@ struct Header {
   char magic[4];
   std::uint32_t version, jsonBytes;
 };
-
-std::size_t coefficientsOf(const EncodedRtt& rtt) {
-  return std::size_t(rtt.bands) * std::size_t(rtt.bands);
-}
-std::size_t planeSizeOf(const EncodedRtt& rtt) {
-  return std::size_t(rtt.width) * rtt.height * rtt.views * rtt.views * 3;
-}
-std::size_t bytesPerNumber(Encoding encoding) {
-  return encoding == Encoding::Snorm8 ? 1 : encoding == Encoding::Float16 ? 2 : 4;
-}
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
@@ -58,38 +46,7 @@ std::span<const std::byte> take(std::span<const std::byte> bytes, std::vector<T>
   return bytes.subspan(count * sizeof(T));
 }
 
-std::optional<std::string> faultOfShape(const EncodedRtt& rtt) {
-  const auto within = [](int value, int most) { return value >= 1 && value <= most; };
-  if (!within(rtt.width, kLargestRtt) || !within(rtt.height, kLargestRtt))
-    return std::to_string(rtt.width) + "×" + std::to_string(rtt.height) + " positions, not 1 to " +
-           std::to_string(kLargestRtt) + " each way";
-  if (!within(rtt.views, kLargestViews))
-    return std::to_string(rtt.views) + " views a side, not 1 to " + std::to_string(kLargestViews);
-  if (!within(rtt.bands, sh::kMaxBands))
-    return "bands is " + std::to_string(rtt.bands) + ", not 1 to " + std::to_string(sh::kMaxBands);
-  if (!rtt.size.allFinite() || !(rtt.size.minCoeff() > 0.0f))
-    return std::string("the patch's size is not two finite numbers above 0");
-  if (!std::isfinite(rtt.depth) || rtt.depth < 0.0f)
-    return std::string("the patch's depth is not a finite number of 0 or more");
-  return std::nullopt;
-}
-
 }  // namespace
-
-std::optional<std::string> faultOf(const EncodedRtt& rtt) {
-  if (auto fault = faultOfShape(rtt)) return fault;
-  const std::size_t needed = coefficientsOf(rtt) * planeSizeOf(rtt);
-  if (rtt.values.size() != needed)
-    return std::to_string(rtt.values.size()) + " numbers where " + std::to_string(needed) +
-           " are needed";
-  if (rtt.values.encoding == Encoding::Snorm8 &&
-      (rtt.values.block != planeSizeOf(rtt) || rtt.values.scales.size() != coefficientsOf(rtt)))
-    return std::string("snorm8 needs one scale for each coefficient");
-  if (const auto at = firstNonFinite(rtt.values))
-    return "not a finite number at coefficient " + std::to_string(*at / planeSizeOf(rtt)) +
-           ", place " + std::to_string(*at % planeSizeOf(rtt));
-  return std::nullopt;
-}
 
 Status writeRtt(const EncodedRtt& rtt, const std::filesystem::path& path) {
   if (path.extension() != ".rtt")
@@ -105,7 +62,7 @@ Status writeRtt(const EncodedRtt& rtt, const std::filesystem::path& path) {
                                  {"bands", rtt.bands},
                                  {"size", {rtt.size.x(), rtt.size.y()}},
                                  {"depth", rtt.depth},
-                                 {"encoding", nameOf(rtt.values.encoding)}};
+                                 {"encoding", transfer::nameOf(rtt.values.encoding)}};
   std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   while (text.size() % 4 != 0) text += ' ';
   Header header{{}, kVersion, static_cast<std::uint32_t>(text.size())};
@@ -113,7 +70,7 @@ Status writeRtt(const EncodedRtt& rtt, const std::filesystem::path& path) {
 
   std::vector<std::byte> bytes;
   bytes.reserve(sizeof header + text.size() + rtt.values.scales.size() * 4 +
-                rtt.values.size() * bytesPerNumber(rtt.values.encoding));
+                rtt.values.size() * transfer::bytesPerNumber(rtt.values.encoding));
   const auto raw = std::as_bytes(std::span(&header, 1));
   bytes.insert(bytes.end(), raw.begin(), raw.end());
   const auto words = std::as_bytes(std::span(text));
@@ -154,34 +111,22 @@ Result<EncodedRtt> readRtt(const std::filesystem::path& path) {
 
   Fault fault;
   JsonFields fields(json, "header", fault);
-  EncodedRtt rtt;
-  if (fields.has("name")) rtt.name = fields.string("name");
-  rtt.width = int(fields.integer("width", 1, kLargestRtt));
-  rtt.height = int(fields.integer("height", 1, kLargestRtt));
-  rtt.views = int(fields.integer("views", 1, kLargestViews));
-  rtt.bands = int(fields.integer("bands", 1, sh::kMaxBands));
-  rtt.depth = float(fields.number("depth", 0.0, 1e9));
-  const std::vector<double> size = fields.numbers("size", 2);
-  if (size.size() == 2)
-    rtt.size = Vec2(float(size[0]), float(size[1]));
-  else
-    fields.complain("size", "is not two numbers");
-  const auto encoding = encodingNamed(fields.string("encoding"));
+  EncodedRtt rtt = rttShapeFrom(fields, 1e9);
+  const auto encoding = transfer::encodingNamed(fields.string("encoding"));
   if (!encoding) fields.complain("encoding", "is none of float16, float32 and snorm8");
   if (!fault.empty()) return bad(fault);
-  if (const auto wrong = faultOfShape(rtt)) return bad(*wrong);
 
   rtt.values.encoding = *encoding;
-  const std::size_t count = coefficientsOf(rtt) * planeSizeOf(rtt);
-  const std::size_t scales = *encoding == Encoding::Snorm8 ? coefficientsOf(rtt) : 0;
-  const std::size_t needed = scales * sizeof(float) + count * bytesPerNumber(*encoding);
+  const std::size_t count = rtt.coefficientCount() * rtt.planeSize();
+  const std::size_t scales = *encoding == Encoding::Snorm8 ? rtt.coefficientCount() : 0;
+  const std::size_t needed = scales * sizeof(float) + count * transfer::bytesPerNumber(*encoding);
   if (rest.size() != needed)
     return bad((rest.size() < needed ? "cut off: " : "too long: ") + std::to_string(rest.size()) +
                " bytes of numbers where " + std::to_string(needed) + " are needed");
   rest = take(rest, rtt.values.scales, scales);
   switch (*encoding) {
     case Encoding::Snorm8:
-      rtt.values.block = planeSizeOf(rtt);
+      rtt.values.block = rtt.planeSize();
       take(rest, rtt.values.byte, count);
       break;
     case Encoding::Float16:

@@ -2,7 +2,9 @@
 
 #include <limits>
 
+#include "lambent/asset/rtt_part.h"
 #include "lambent/asset/test_support.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::asset {
 namespace {
@@ -10,25 +12,25 @@ namespace {
 using test::bytesOf;
 using test::spill;
 
-encode::EncodedRtt exampleRtt(encode::Encoding encoding) {
-  meso::RadianceTransferTexture rtt;
+transfer::EncodedRtt exampleRtt(transfer::Encoding encoding) {
+  transfer::Rtt<transfer::Floats> rtt;
   rtt.name = "stripes \"fine\"";
   rtt.width = 5, rtt.height = 3, rtt.views = 2, rtt.bands = 3;
   rtt.size = Vec2(0.5f, 0.3f);
   rtt.depth = 0.02f;
   for (std::size_t i = 0; i < 9 * rtt.planeSize(); ++i)
     rtt.values.push_back(0.01f * float(i % 101) - 0.3f);
-  return encode::encode(rtt, encoding);
+  return transfer::encode(rtt, encoding);
 }
 
 TEST(RttFile, ComesBackInEveryEncoding) {
   const test::Folder folder;
   for (const auto encoding :
-       {encode::Encoding::Float16, encode::Encoding::Float32, encode::Encoding::Snorm8}) {
-    const encode::EncodedRtt rtt = exampleRtt(encoding);
+       {transfer::Encoding::Float16, transfer::Encoding::Float32, transfer::Encoding::Snorm8}) {
+    const transfer::EncodedRtt rtt = exampleRtt(encoding);
     ASSERT_TRUE(writeRtt(rtt, folder / "a.rtt"));
     EXPECT_TRUE(isRtt(folder / "a.rtt"));
-    const Result<encode::EncodedRtt> back = readRtt(folder / "a.rtt");
+    const Result<transfer::EncodedRtt> back = readRtt(folder / "a.rtt");
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(back->name, rtt.name);
     EXPECT_EQ(back->width, 5);
@@ -48,11 +50,11 @@ TEST(RttFile, ComesBackInEveryEncoding) {
 
 TEST(RttFile, CutOffAnywhereIsBadInputThatNamesTheFile) {
   const test::Folder folder;
-  ASSERT_TRUE(writeRtt(exampleRtt(encode::Encoding::Snorm8), folder / "a.rtt"));
+  ASSERT_TRUE(writeRtt(exampleRtt(transfer::Encoding::Snorm8), folder / "a.rtt"));
   const std::vector<std::byte> whole = bytesOf(folder / "a.rtt");
   for (std::size_t length = 0; length < whole.size(); length += length < 300 ? 1 : 997) {
     spill(folder / "cut.rtt", std::span(whole).first(length));
-    const Result<encode::EncodedRtt> read = readRtt(folder / "cut.rtt");
+    const Result<transfer::EncodedRtt> read = readRtt(folder / "cut.rtt");
     ASSERT_FALSE(read) << length;
     EXPECT_EQ(read.error().kind, ErrorKind::BadInput);
     EXPECT_NE(read.error().message.find("cut.rtt"), std::string::npos);
@@ -65,14 +67,14 @@ TEST(RttFile, CutOffAnywhereIsBadInputThatNamesTheFile) {
 
 TEST(RttFile, AnyByteChangedIsReadOrRefusedButNeverWorse) {
   const test::Folder folder;
-  ASSERT_TRUE(writeRtt(exampleRtt(encode::Encoding::Float16), folder / "a.rtt"));
+  ASSERT_TRUE(writeRtt(exampleRtt(transfer::Encoding::Float16), folder / "a.rtt"));
   const std::vector<std::byte> whole = bytesOf(folder / "a.rtt");
   int refused = 0;
   for (std::size_t at = 0; at < 320; ++at) {
     std::vector<std::byte> bytes = whole;
     bytes[at] ^= std::byte(0x41);
     spill(folder / "b.rtt", bytes);
-    const Result<encode::EncodedRtt> read = readRtt(folder / "b.rtt");
+    const Result<transfer::EncodedRtt> read = readRtt(folder / "b.rtt");
     if (read)
       EXPECT_FALSE(faultOf(*read));
     else
@@ -83,13 +85,13 @@ TEST(RttFile, AnyByteChangedIsReadOrRefusedButNeverWorse) {
 
 TEST(RttFile, NumbersThatAreNotFiniteAreNeitherWrittenNorRead) {
   const test::Folder folder;
-  encode::EncodedRtt rtt = exampleRtt(encode::Encoding::Float32);
+  transfer::EncodedRtt rtt = exampleRtt(transfer::Encoding::Float32);
   ASSERT_TRUE(writeRtt(rtt, folder / "a.rtt"));
   std::vector<std::byte> bytes = bytesOf(folder / "a.rtt");
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(bytes.data() + bytes.size() - 4, &nan, 4);
   spill(folder / "nan.rtt", bytes);
-  const Result<encode::EncodedRtt> read = readRtt(folder / "nan.rtt");
+  const Result<transfer::EncodedRtt> read = readRtt(folder / "nan.rtt");
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("finite"), std::string::npos);
   rtt.values.single[7] = nan;
@@ -103,10 +105,10 @@ TEST(RttFile, OtherFilesAreToldApart) {
   spill(folder / "x.rtt", std::as_bytes(std::span(text)));
   EXPECT_FALSE(isRtt(folder / "x.rtt"));
   EXPECT_FALSE(isRtt(folder / "nothing.rtt"));
-  const Result<encode::EncodedRtt> read = readRtt(folder / "x.rtt");
+  const Result<transfer::EncodedRtt> read = readRtt(folder / "x.rtt");
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("lambent rtt"), std::string::npos);
-  const Status other = writeRtt(exampleRtt(encode::Encoding::Float16), folder / "x.bin");
+  const Status other = writeRtt(exampleRtt(transfer::Encoding::Float16), folder / "x.bin");
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().kind, ErrorKind::BadUsage);
 }

@@ -5,13 +5,19 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
+
+#include "lambent/transfer/encode.h"
 
 namespace lambent::asset {
 
 namespace {
 
-using encode::Encoding;
-using transport::Layout;
+using transfer::Encoding;
+using transfer::Kind;
+using transfer::Numbers;
+using Response = transfer::SurfaceResponse<Numbers>;
+using Surface = transfer::Surface<Numbers>;
 
 std::array<double, 9> basis(const Vec3d& d) {
   const double x = d.x(), y = d.y(), z = d.z();
@@ -54,29 +60,24 @@ scene::Mesh square(const char* name, int material, const Vec3& center) {
   return mesh;
 }
 
-void repeatVectors(encode::EncodedMesh& transfer, const Rgb& albedo, int channels,
-                   Encoding encoding) {
-  transfer.bands = 3;
-  transfer.channels = channels;
+transfer::SharedReceivers atVertices(const scene::Mesh& mesh) {
+  return std::make_shared<const transfer::Receivers>(
+      transfer::Receivers{mesh.positions, mesh.normals, transfer::AtVertices{}});
+}
+
+transfer::Diffuse<Numbers> unoccluded(const transfer::Receivers& receivers, const Rgb& albedo,
+                                      int channels, Encoding encoding) {
   std::vector<float> numbers;
-  for (const Vec3& normal : transfer.normals) {
+  for (const Vec3& normal : receivers.normals) {
     const std::vector<float> one = unoccluded(albedo, channels, normal);
     numbers.insert(numbers.end(), one.begin(), one.end());
   }
-  transfer.vectors = encode::encode(numbers, encoding);
+  return {transfer::Albedo::Included, {3, channels, transfer::encode(numbers, encoding)}};
 }
 
-encode::EncodedMesh atVertices(const scene::Mesh& mesh) {
-  encode::EncodedMesh transfer;
-  transfer.layout = Layout::Vertices;
-  transfer.positions = mesh.positions;
-  transfer.normals = mesh.normals;
-  return transfer;
-}
-
-encode::EncodedField statement() {
-  encode::EncodedField field;
-  field.kind = transport::TransferKind::Unshadowed;
+transfer::EncodedField statement() {
+  transfer::EncodedField field;
+  field.kind = Kind::Unshadowed;
   field.bands = 3;
   return field;
 }
@@ -95,12 +96,14 @@ Asset unoccludedSquare() {
   asset.scene.materials = {grey("grey")};
   asset.scene.meshes = {square("square", 0, Vec3::Zero())};
   asset.transfer = statement();
-  encode::EncodedMesh transfer = atVertices(asset.scene.meshes[0]);
-  repeatVectors(transfer, Rgb::Constant(0.5f), 1, Encoding::Float32);
-  asset.transfer.meshes = {transfer};
+  Surface surface{atVertices(asset.scene.meshes[0]), {}};
+  const Response& response = surface.responses.set(
+      Kind::Unshadowed,
+      {unoccluded(*surface.receivers, Rgb::Constant(0.5f), 1, Encoding::Float32), {}});
   double energy = 0.0;
-  for (float m : decode(transfer.vectors)) energy += double(m) * double(m);
-  asset.transfer.passEnergy = {energy / double(transfer.receiverCount())};
+  for (const float m : decode(response.diffuse->vectors.numbers)) energy += double(m) * double(m);
+  asset.transfer.passEnergy = {energy / double(surface.receivers->size())};
+  asset.transfer.meshes = {surface};
   return asset;
 }
 
@@ -125,44 +128,45 @@ Asset everyLayout() {
   asset.scene.cameras = {camera};
 
   asset.transfer = statement();
-  asset.transfer.kind = transport::TransferKind::Interreflected;
+  asset.transfer.kind = Kind::Interreflected;
   asset.transfer.directions = 8192;
   asset.transfer.bounces = 2;
   asset.transfer.seed = 0xfedcba9876543210u;  // more than a JSON number holds in every reader
   asset.transfer.passEnergy = {0.125, 0.0625, 1.0 / 3.0};
 
-  encode::EncodedMesh perVertex = atVertices(asset.scene.meshes[0]);
-  perVertex.albedo = transport::Albedo::BaseColor;
-  repeatVectors(perVertex, coloured.diffuse, 3, Encoding::Float16);
+  Surface perVertex{atVertices(asset.scene.meshes[0]), {}};
+  perVertex.responses
+      .set(Kind::Interreflected,
+           {unoccluded(*perVertex.receivers, coloured.diffuse, 3, Encoding::Float16), {}})
+      .diffuse->albedo = transfer::Albedo::BaseColor;
 
-  encode::EncodedMesh perTexel;
-  perTexel.layout = Layout::Texels;
-  perTexel.width = 3;
-  perTexel.height = 2;
+  transfer::Receivers texels;
+  transfer::AtTexels grid{3, 2, {}};
   for (int row = 0; row < 2; ++row)
     for (int column = 0; column < 3; ++column) {
       const Vec2 uv((float(column) + 0.5f) / 3.0f, (float(row) + 0.5f) / 2.0f);
-      perTexel.positions.emplace_back(2.0f + 2.0f * uv.x(), 0.0f, 2.0f * uv.y() - 1.0f);
-      perTexel.normals.emplace_back(0.0f, 1.0f, 0.0f);
-      perTexel.covered.push_back(row == 1 && column == 2 ? 0 : 1);
+      texels.positions.emplace_back(2.0f + 2.0f * uv.x(), 0.0f, 2.0f * uv.y() - 1.0f);
+      texels.normals.emplace_back(0.0f, 1.0f, 0.0f);
+      grid.covered.push_back(row == 1 && column == 2 ? 0 : 1);
     }
-  repeatVectors(perTexel, Rgb::Constant(0.5f), 1, Encoding::Float16);
+  texels.where = grid;
+  Surface perTexel{std::make_shared<const transfer::Receivers>(texels), {}};
+  perTexel.responses.set(Kind::Interreflected,
+                         {unoccluded(texels, Rgb::Constant(0.5f), 1, Encoding::Float16), {}});
 
-  encode::EncodedMesh shiny = atVertices(asset.scene.meshes[2]);
-  repeatVectors(shiny, Rgb::Constant(0.5f), 1, Encoding::Float32);
-  shiny.outBands = 2;
-  shiny.inBands = 3;
-  shiny.matrixChannels = 1;
-  shiny.glossy = glossy.glossy;
-  shiny.lobeExponent = glossy.lobeExponent;
+  Surface shiny{atVertices(asset.scene.meshes[2]), {}};
   // Nothing hides the light: the identity, its rows cut to 2 bands.
   std::vector<float> matrices;
-  for (std::size_t receiver = 0; receiver < shiny.receiverCount(); ++receiver)
+  for (std::size_t receiver = 0; receiver < shiny.receivers->size(); ++receiver)
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 9; ++column) matrices.push_back(row == column ? 1.0f : 0.0f);
-  shiny.matrices = encode::encode(matrices, Encoding::Float32);
+  shiny.responses.set(
+      Kind::Interreflected,
+      {unoccluded(*shiny.receivers, Rgb::Constant(0.5f), 1, Encoding::Float32),
+       transfer::Glossy<Numbers>{{glossy.glossy, glossy.lobeExponent},
+                                 {2, 3, 1, transfer::encode(matrices, Encoding::Float32)}}});
 
-  asset.transfer.meshes = {perVertex, perTexel, shiny, encode::EncodedMesh{}};
+  asset.transfer.meshes = {perVertex, perTexel, shiny, transfer::NoTransfer{}};
   return asset;
 }
 
@@ -171,12 +175,12 @@ Asset biScale() {
   asset.scene.materials = {grey("patch")};
   asset.scene.meshes = {square("with an id map", 0, {0, 0, 0}), square("by its UVs", 0, {3, 0, 0})};
   asset.transfer = statement();
-  asset.transfer.kind = transport::TransferKind::Shadowed;
+  asset.transfer.kind = Kind::Shadowed;
   asset.transfer.directions = 1024;
 
   // Flat stripes: B_i = ρ/π Â_l y_i(+z), with a reflectance for each position and a view that is
   // half as bright as the others.
-  meso::RadianceTransferTexture rtt;
+  transfer::Rtt<transfer::Floats> rtt;
   rtt.name = "stripes";
   rtt.width = 4, rtt.height = 2, rtt.views = 2, rtt.bands = 3;
   rtt.size = Vec2(0.5f, 0.25f);
@@ -188,7 +192,7 @@ Asset biScale() {
           for (int c = 0; c < 3; ++c)
             rtt.values.push_back(0.25f * float(1 + (x + y + c) % 4) * (view == 3 ? 0.5f : 1.0f) *
                                  flat[std::size_t(i)]);
-  asset.transfer.rtts = {encode::encode(rtt, Encoding::Snorm8)};
+  asset.transfer.rtts = {transfer::encode(rtt, Encoding::Snorm8)};
 
   // T = +x, N × T = −z, N = +y: the rotation of three bands into that frame, by hand. Band 1 is
   // (y, z, x): the frame's (y', z', x') = (−z, y, x).
@@ -199,24 +203,23 @@ Asset biScale() {
                                  {0, 0, 0, 0, 0, 0, -0.5, 0, -s}, {0, 0, 0, 0, 1, 0, 0, 0, 0},
                                  {0, 0, 0, 0, 0, 0, -s, 0, 0.5}};
   for (int mesh = 0; mesh < 2; ++mesh) {
-    encode::EncodedMesh& transfer =
-        asset.transfer.meshes.emplace_back(atVertices(asset.scene.meshes[std::size_t(mesh)]));
-    encode::EncodedBiScale& patch = transfer.biScale.emplace();
-    patch.bands = 3;
-    patch.scale = 2.0f;
-    patch.tangents.assign(4, Vec3(1, 0, 0));
+    transfer::BiScale<Numbers> patched;
+    patched.receivers = atVertices(asset.scene.meshes[std::size_t(mesh)]);
+    patched.bands = 3;
+    patched.patch.scale = 2.0f;
+    patched.tangents.assign(4, Vec3(1, 0, 0));
     if (mesh == 1) {
-      patch.tiles = Vec2(3, 3);
-      continue;
+      patched.patch.place = transfer::Tiles{Vec2(3, 3)};
+    } else {
+      patched.patch.place = transfer::IdMap{2, 2, {0, 0, 16384, 0, 0, 32768, 65535, 65535}};
+      std::vector<float> matrices;
+      for (int receiver = 0; receiver < 4; ++receiver)
+        for (const auto& row : rotation)
+          for (const double value : row) matrices.push_back(float(value));
+      patched.matrices.set(Kind::Shadowed,
+                           {3, 3, 1, transfer::encode(matrices, Encoding::Float16)});
     }
-    synthesis::IdMap& map = patch.idMap.emplace();
-    map.width = map.height = 2;
-    map.ids = {0, 0, 16384, 0, 0, 32768, 65535, 65535};
-    std::vector<float> matrices;
-    for (int receiver = 0; receiver < 4; ++receiver)
-      for (const auto& row : rotation)
-        for (const double value : row) matrices.push_back(float(value));
-    patch.shadowed = encode::encode(matrices, Encoding::Float16);
+    asset.transfer.meshes.emplace_back(std::move(patched));
   }
   return asset;
 }
@@ -231,10 +234,10 @@ std::vector<float> tinted(const std::vector<float>& numbers, const Rgb& factors)
   return all;
 }
 
-encode::Numbers atEach(const std::vector<float>& one, std::size_t receivers, Encoding encoding) {
+Numbers atEach(const std::vector<float>& one, std::size_t receivers, Encoding encoding) {
   std::vector<float> all;
   for (std::size_t r = 0; r < receivers; ++r) all.insert(all.end(), one.begin(), one.end());
-  return encode::encode(all, encoding);
+  return transfer::encode(all, encoding);
 }
 
 }  // namespace
@@ -249,41 +252,42 @@ Asset keptShadowed() {
   asset.scene.materials = {grey("grey"), glossy};
   asset.scene.meshes = {square("per vertex", 0, {0, 0, 0}), square("per texel", 1, {3, 0, 0})};
   asset.transfer = statement();
-  asset.transfer.kind = transport::TransferKind::Interreflected;
+  asset.transfer.kind = Kind::Interreflected;
   asset.transfer.directions = 4096;
   asset.transfer.bounces = 1;
   asset.transfer.passEnergy = {0.25, 0.0625};
 
   std::vector<float> vector = unoccluded(Rgb::Constant(0.5f), 1, Vec3::UnitY());
   for (float& number : vector) number *= kThrough;
-  const auto setVectors = [&](encode::EncodedMesh& mesh, Encoding encoding) {
-    mesh.bands = 3;
-    mesh.channels = 3;
-    mesh.vectors = atEach(tinted(vector, all / kThrough), mesh.receiverCount(), encoding);
-    mesh.shadowed.channels = 1;
-    mesh.shadowed.vectors = atEach(vector, mesh.receiverCount(), encoding);
+  // Both kinds at so many receivers.
+  const auto setVectors = [&](Surface& surface, Encoding encoding) {
+    const std::size_t receivers = surface.receivers->size();
+    const auto diffuse = [&](const std::vector<float>& one, int channels) {
+      return transfer::Diffuse<Numbers>{transfer::Albedo::Included,
+                                        {3, channels, atEach(one, receivers, encoding)}};
+    };
+    surface.responses.set(Kind::Interreflected, {diffuse(tinted(vector, all / kThrough), 3), {}});
+    surface.responses.set(Kind::Shadowed, {diffuse(vector, 1), {}});
   };
-  encode::EncodedMesh perVertex = atVertices(asset.scene.meshes[0]);
+  Surface perVertex{atVertices(asset.scene.meshes[0]), {}};
   setVectors(perVertex, Encoding::Float16);
 
-  encode::EncodedMesh perTexel;
-  perTexel.layout = Layout::Texels;
-  perTexel.width = perTexel.height = 2;
+  transfer::Receivers texels;
   for (const Vec2& at : {Vec2(2.5f, -0.5f), Vec2(3.5f, -0.5f), Vec2(2.5f, 0.5f), Vec2(3.5f, 0.5f)})
-    perTexel.positions.emplace_back(at.x(), 0.0f, at.y());
-  perTexel.normals.assign(4, Vec3::UnitY());
-  perTexel.covered.assign(4, 1);
+    texels.positions.emplace_back(at.x(), 0.0f, at.y());
+  texels.normals.assign(4, Vec3::UnitY());
+  texels.where = transfer::AtTexels{2, 2, {1, 1, 1, 1}};
+  Surface perTexel{std::make_shared<const transfer::Receivers>(texels), {}};
   setVectors(perTexel, Encoding::Float32);
   std::vector<float> identity(81, 0.0f);
   for (std::size_t i = 0; i < 9; ++i) identity[10 * i] = 1.0f;
-  perTexel.outBands = perTexel.inBands = 3;
-  perTexel.glossy = glossy.glossy;
-  perTexel.lobeExponent = glossy.lobeExponent;
-  perTexel.matrixChannels = 3;
-  perTexel.matrices = atEach(tinted(identity, all), 4, Encoding::Float32);
-  perTexel.shadowed.matrixChannels = 1;
+  const auto setMatrices = [&](Kind kind, int channels, const std::vector<float>& one) {
+    perTexel.responses.find(kind)->glossy = {{glossy.glossy, glossy.lobeExponent},
+                                             {3, 3, channels, atEach(one, 4, Encoding::Float32)}};
+  };
+  setMatrices(Kind::Interreflected, 3, tinted(identity, all));
   for (float& number : identity) number *= kThrough;
-  perTexel.shadowed.matrices = atEach(identity, 4, Encoding::Float32);
+  setMatrices(Kind::Shadowed, 1, identity);
 
   asset.transfer.meshes = {perVertex, perTexel};
   return asset;

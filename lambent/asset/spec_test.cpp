@@ -8,9 +8,10 @@
 #include <set>
 
 #include "lambent/asset/asset.h"
-#include "lambent/asset/names.h"
+#include "lambent/asset/format.h"
 #include "lambent/asset/samples.h"
 #include "lambent/asset/test_support.h"
+#include "lambent/transfer/names.h"
 
 namespace lambent::asset {
 namespace {
@@ -91,15 +92,16 @@ TEST(Spec, SchemaNamesEveryEnumeration) {
   const json primitives = schema("mesh.primitive");
   const json root = schema("glTF");
   for (const json& name : root["properties"]["transfer"]["enum"])
-    EXPECT_TRUE(transferKindNamed(name.get<std::string>())) << name;
-  for (const json& name : primitives["properties"]["layout"]["enum"])
-    EXPECT_TRUE(layoutNamed(name.get<std::string>())) << name;
+    EXPECT_TRUE(transfer::kindNamed(name.get<std::string>())) << name;
+  const transfer::Receivers atVertices, atTexels{{}, {}, transfer::AtTexels{}};
+  EXPECT_EQ(primitives["properties"]["layout"]["enum"],
+            json::array({transfer::layoutOf(atVertices), transfer::layoutOf(atTexels)}));
   for (const json& name : primitives["properties"]["vectors"]["properties"]["albedo"]["enum"])
-    EXPECT_TRUE(albedoNamed(name.get<std::string>())) << name;
+    EXPECT_TRUE(transfer::albedoNamed(name.get<std::string>())) << name;
   for (const json& name : primitives["$defs"]["encoding"]["enum"])
-    EXPECT_TRUE(encodingNamed(name.get<std::string>())) << name;
+    EXPECT_TRUE(transfer::encodingNamed(name.get<std::string>())) << name;
   for (const json& name : primitives["$defs"]["localMatrices"]["properties"]["encoding"]["enum"])
-    EXPECT_TRUE(encodingNamed(name.get<std::string>())) << name;
+    EXPECT_TRUE(transfer::encodingNamed(name.get<std::string>())) << name;
 }
 
 TEST(Spec, CommittedSamplesReadAsMeant) {
@@ -129,7 +131,10 @@ TEST(Spec, FilesOfOlderVersionsReadAsMeant) {
 TEST(Spec, TheSquareIsWhatAHandCalculates) {
   const Result<Asset> read = asset::read(kSpec / "samples" / "unoccluded-square.glb");
   ASSERT_TRUE(read) << read.error().message;
-  const std::vector<float> m = decode(read->transfer.meshes[0].vectors);
+  const std::vector<float> m =
+      decode(std::get<transfer::Surface<transfer::Numbers>>(read->transfer.meshes[0])
+                 .responses.find(read->transfer.kind)
+                 ->diffuse->vectors.numbers);
   ASSERT_EQ(m.size(), 4u * 9u);
   // ρ/π · Â_l · y_i(+y) with ρ = ½: ½ y_00, ⅓ y_1−1, and ⅛ of y_20 = −√(5/16π), y_22 = −√(15/16π).
   const double expected[9] = {0.5 * 0.28209479, 0.48860251 / 3, 0, 0, 0, 0, -0.31539157 / 8, 0,

@@ -2,27 +2,68 @@
 
 #include <algorithm>
 
+#include "lambent/asset/check.h"
+
 namespace lambent::asset {
+
+using transfer::Kind;
+using transfer::Numbers;
+using Response = transfer::SurfaceResponse<Numbers>;
 
 namespace {
 
-template <class T>
-std::uint64_t bytesOf(const std::vector<T>& values) {
-  return values.size() * sizeof(T);
+void describe(const transfer::Surface<Numbers>& surface, Kind kind, MeshSummary& summary) {
+  if (const Response* own = surface.responses.find(kind)) {
+    if (own->diffuse)
+      summary.vectors = VectorsSummary{.bands = own->diffuse->vectors.bands,
+                                       .channels = own->diffuse->vectors.channels,
+                                       .encoding = own->diffuse->vectors.numbers.encoding,
+                                       .albedo = own->diffuse->albedo,
+                                       .bytes = transfer::bytesOf(own->diffuse->vectors.numbers)};
+    if (own->glossy)
+      summary.matrices = MatricesSummary{.outBands = own->glossy->matrices.outBands,
+                                         .inBands = own->glossy->matrices.inBands,
+                                         .channels = own->glossy->matrices.channels,
+                                         .encoding = own->glossy->matrices.numbers.encoding,
+                                         .glossy = own->glossy->lobe.reflectance,
+                                         .lobeExponent = own->glossy->lobe.exponent,
+                                         .bytes = transfer::bytesOf(own->glossy->matrices.numbers)};
+  }
+  const Response* kept = kind == Kind::Shadowed ? nullptr : surface.responses.find(Kind::Shadowed);
+  if (!kept) return;
+  ShadowedSummary& shadowed = summary.shadowed.emplace();
+  if (kept->diffuse) {
+    shadowed.channels = kept->diffuse->vectors.channels;
+    shadowed.bytes += transfer::bytesOf(kept->diffuse->vectors.numbers);
+  }
+  if (kept->glossy) {
+    shadowed.matrixChannels = kept->glossy->matrices.channels;
+    shadowed.bytes += transfer::bytesOf(kept->glossy->matrices.numbers);
+  }
 }
 
-std::uint64_t bytesOf(const encode::Numbers& numbers) {
-  return bytesOf(numbers.half) + bytesOf(numbers.single) + bytesOf(numbers.byte) +
-         bytesOf(numbers.scales);
+void describe(const transfer::BiScale<Numbers>& biScale, Kind, MeshSummary& summary) {
+  const transfer::IdMap* map = biScale.patch.idMap();
+  BiScaleSummary& to = summary.biScale.emplace();
+  to.rtt = biScale.patch.rtt;
+  to.bands = biScale.bands;
+  to.scale = biScale.patch.scale;
+  if (map) to.idMapWidth = map->width, to.idMapHeight = map->height;
+  to.tiles = biScale.patch.tiles();
+  to.shadowed = biScale.matrices.holds(Kind::Shadowed);
+  to.interreflected = biScale.matrices.holds(Kind::Interreflected);
+  to.encoding = transfer::Encoding::Float32;
+  biScale.matrices.each([&](Kind kind, const transfer::Matrices<Numbers>& matrices) {
+    if (kind == Kind::Interreflected) to.channels = matrices.channels;
+    to.encoding = matrices.numbers.encoding;
+    to.bytes += transfer::bytesOf(matrices.numbers);
+  });
 }
 
-std::uint64_t bytesOf(const scene::Mesh& mesh) {
-  return bytesOf(mesh.positions) + bytesOf(mesh.normals) + bytesOf(mesh.uvs) +
-         bytesOf(mesh.colors) + bytesOf(mesh.triangles);
-}
+void describe(const transfer::NoTransfer&, Kind, MeshSummary&) {}
 
 MeshSummary summaryOf(const scene::Scene& scene, const scene::Mesh& mesh,
-                      const encode::EncodedMesh& transfer) {
+                      const transfer::EncodedMesh& transfer, Kind kind) {
   const scene::Material& material = scene.materials[std::size_t(mesh.material)];
   MeshSummary summary;
   summary.name = mesh.name;
@@ -30,56 +71,29 @@ MeshSummary summaryOf(const scene::Scene& scene, const scene::Mesh& mesh,
   summary.mirror = material.isMirror();
   summary.vertices = mesh.positions.size();
   summary.triangles = mesh.triangles.size();
-  summary.layout = transfer.layout;
-  summary.width = transfer.width;
-  summary.height = transfer.height;
-  summary.receivers = transfer.receiverCount();
-  summary.covered = std::uint64_t(std::count(transfer.covered.begin(), transfer.covered.end(), 1));
-  if (!transfer.vectors.empty())
-    summary.vectors = VectorsSummary{.bands = transfer.bands,
-                                     .channels = transfer.channels,
-                                     .encoding = transfer.vectors.encoding,
-                                     .albedo = transfer.albedo,
-                                     .bytes = bytesOf(transfer.vectors)};
-  if (!transfer.matrices.empty())
-    summary.matrices = MatricesSummary{.outBands = transfer.outBands,
-                                       .inBands = transfer.inBands,
-                                       .channels = transfer.matrixChannels,
-                                       .encoding = transfer.matrices.encoding,
-                                       .glossy = transfer.glossy,
-                                       .lobeExponent = transfer.lobeExponent,
-                                       .bytes = bytesOf(transfer.matrices)};
-  if (const encode::EncodedShadowed& kept = transfer.shadowed; !kept.empty())
-    summary.shadowed =
-        ShadowedSummary{.channels = kept.vectors.empty() ? 0 : kept.channels,
-                        .matrixChannels = kept.matrices.empty() ? 0 : kept.matrixChannels,
-                        .bytes = bytesOf(kept.vectors) + bytesOf(kept.matrices)};
-  if (const auto& b = transfer.biScale)
-    summary.biScale = BiScaleSummary{
-        .rtt = b->rtt,
-        .bands = b->bands,
-        .scale = b->scale,
-        .idMapWidth = b->idMap ? b->idMap->width : 0,
-        .idMapHeight = b->idMap ? b->idMap->height : 0,
-        .tiles = b->tiles,
-        .shadowed = !b->shadowed.empty(),
-        .interreflected = !b->interreflected.empty(),
-        .channels = b->channels,
-        .encoding = b->interreflected.empty() ? b->shadowed.encoding : b->interreflected.encoding,
-        .bytes = bytesOf(b->shadowed) + bytesOf(b->interreflected)};
+  if (const transfer::Receivers* receivers = transfer::receiversOf(transfer)) {
+    summary.layout = transfer::layoutOf(*receivers);
+    summary.receivers = receivers->size();
+    if (const transfer::AtTexels* grid = receivers->texels()) {
+      summary.width = grid->width, summary.height = grid->height;
+      summary.covered = std::uint64_t(std::count(grid->covered.begin(), grid->covered.end(), 1));
+    }
+  }
+  std::visit([&](const auto& kindOfTransfer) { describe(kindOfTransfer, kind, summary); },
+             transfer);
   return summary;
 }
 
 }  // namespace
 
-RttSummary summarize(const encode::EncodedRtt& rtt) {
+RttSummary summarize(const transfer::EncodedRtt& rtt) {
   return {rtt.name, rtt.width, rtt.height,          rtt.views,          rtt.bands,
           rtt.size, rtt.depth, rtt.values.encoding, bytesOf(rtt.values)};
 }
 
 Summary summarize(const Asset& asset) {
   const scene::Scene& scene = asset.scene;
-  const encode::EncodedField& field = asset.transfer;
+  const transfer::EncodedField& field = asset.transfer;
   Summary summary;
   summary.kind = field.kind;
   summary.bands = field.bands;
@@ -90,37 +104,19 @@ Summary summarize(const Asset& asset) {
   summary.materials = scene.materials.size();
   summary.textures = scene.textures.size();
   summary.cameras = scene.cameras.size();
+  summary.bytes = bytesOf(asset);
+  summary.memoryBytes = summary.bytes.total();
   for (std::size_t i = 0; i < scene.meshes.size() && i < field.meshes.size(); ++i) {
-    const encode::EncodedMesh& transfer = field.meshes[i];
     const MeshSummary& mesh =
-        summary.meshes.emplace_back(summaryOf(scene, scene.meshes[i], transfer));
+        summary.meshes.emplace_back(summaryOf(scene, scene.meshes[i], field.meshes[i], field.kind));
     summary.vertices += mesh.vertices;
     summary.triangles += mesh.triangles;
     summary.receivers += mesh.receivers;
-    summary.bytes.geometry += bytesOf(scene.meshes[i]);
-    summary.bytes.vectors += bytesOf(transfer.vectors) + bytesOf(transfer.shadowed.vectors);
-    summary.bytes.matrices += bytesOf(transfer.matrices) + bytesOf(transfer.shadowed.matrices);
-    const std::uint64_t places =
-        bytesOf(transfer.positions) + bytesOf(transfer.normals) + bytesOf(transfer.covered);
-    if (transfer.layout == transport::Layout::Texels) summary.bytes.receivers += places;
-    summary.memoryBytes += places;
-    if (const auto& b = transfer.biScale) {
-      summary.bytes.matrices += bytesOf(b->shadowed) + bytesOf(b->interreflected);
-      if (b->idMap) summary.bytes.idMaps += bytesOf(b->idMap->ids);
-      summary.bytes.receivers += bytesOf(b->tangents);
-      summary.memoryBytes += bytesOf(b->tangents);
-    }
+    // In memory, vertex receivers have places of their own too.
+    if (mesh.layout == "vertices") summary.memoryBytes += mesh.receivers * 2 * sizeof(Vec3);
   }
-  for (const encode::EncodedRtt& rtt : field.rtts) {
-    summary.rtts.push_back(summarize(rtt));
-    summary.bytes.rtts += summary.rtts.back().bytes;
-  }
-  std::uint64_t decoded = 0;
-  for (const scene::Texture& texture : scene.textures) {
-    summary.bytes.textures += bytesOf(texture.encoded);
-    decoded += bytesOf(texture.rgba);
-  }
-  summary.memoryBytes += decoded + summary.bytes.total() - summary.bytes.receivers;
+  for (const transfer::EncodedRtt& rtt : field.rtts) summary.rtts.push_back(summarize(rtt));
+  for (const scene::Texture& texture : scene.textures) summary.memoryBytes += texture.rgba.size();
   return summary;
 }
 

@@ -4,22 +4,25 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lambent/asset/asset.h"
+#include "lambent/asset/part_bytes.h"
+#include "lambent/transfer/names.h"
 
 namespace lambent::asset {
 
 struct VectorsSummary {
   int bands = 0, channels = 0;
-  encode::Encoding encoding = encode::Encoding::Float16;
-  transport::Albedo albedo = transport::Albedo::Included;
+  transfer::Encoding encoding = transfer::Encoding::Float16;
+  transfer::Albedo albedo = transfer::Albedo::Included;
   std::uint64_t bytes = 0;
 };
 
 struct MatricesSummary {
   int outBands = 0, inBands = 0, channels = 0;
-  encode::Encoding encoding = encode::Encoding::Float16;
+  transfer::Encoding encoding = transfer::Encoding::Float16;
   Rgb glossy = Rgb::Zero();
   float lobeExponent = 0.0f;
   std::uint64_t bytes = 0;
@@ -36,7 +39,7 @@ struct RttSummary {
   int width = 0, height = 0, views = 0, bands = 0;
   Vec2 size = Vec2(1.0f, 1.0f);  ///< metres
   float depth = 0.0f;
-  encode::Encoding encoding = encode::Encoding::Float16;
+  transfer::Encoding encoding = transfer::Encoding::Float16;
   std::uint64_t bytes = 0;
 };
 
@@ -47,7 +50,7 @@ struct BiScaleSummary {
   Vec2 tiles = Vec2(1.0f, 1.0f);
   bool shadowed = false, interreflected = false;  ///< which matrices are there
   int channels = 0;                               ///< of the interreflected ones
-  encode::Encoding encoding = encode::Encoding::Float16;
+  transfer::Encoding encoding = transfer::Encoding::Float16;
   std::uint64_t bytes = 0;  ///< of the matrices
 };
 
@@ -55,8 +58,8 @@ struct MeshSummary {
   std::string name, material;
   bool mirror = false;  ///< reflects, and holds no transfer
   std::uint64_t vertices = 0, triangles = 0;
-  transport::Layout layout = transport::Layout::None;
-  int width = 0, height = 0;  ///< Texels only
+  std::string_view layout = transfer::kNoLayout;  ///< none, vertices or texels
+  int width = 0, height = 0;                      ///< Texels only
   std::uint64_t receivers = 0;
   std::uint64_t covered = 0;  ///< Texels: receivers with a surface point of their own
   std::optional<VectorsSummary> vectors;
@@ -65,22 +68,8 @@ struct MeshSummary {
   std::optional<BiScaleSummary> biScale;
 };
 
-/// Bytes that each part takes in the file's binary chunk, without the JSON and without padding.
-struct PartBytes {
-  std::uint64_t geometry = 0;   ///< positions, normals, UVs, colours (as floats), 32-bit indices
-  std::uint64_t textures = 0;   ///< as encoded in the file
-  std::uint64_t vectors = 0;    ///< those kept beside included
-  std::uint64_t matrices = 0;   ///< the same
-  std::uint64_t receivers = 0;  ///< texel receivers' positions, normals and coverage; tangents
-  std::uint64_t rtts = 0;
-  std::uint64_t idMaps = 0;
-  std::uint64_t total() const {
-    return geometry + textures + vectors + matrices + receivers + rtts + idMaps;
-  }
-};
-
 struct Summary {
-  transport::TransferKind kind = transport::TransferKind::Shadowed;
+  transfer::Kind kind = transfer::Kind::Shadowed;
   int bands = 0, directions = 0, bounces = 0;
   std::uint64_t seed = 0;
   std::vector<double> passEnergy;
@@ -92,7 +81,7 @@ struct Summary {
   std::vector<RttSummary> rtts;
 };
 
-RttSummary summarize(const encode::EncodedRtt& rtt);
+RttSummary summarize(const transfer::EncodedRtt& rtt);
 Summary summarize(const Asset& asset);
 
 }  // namespace lambent::asset

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Summary, CountsWhatIsThere) {
   const Summary summary = summarize(everyLayout());
-  EXPECT_EQ(summary.kind, transport::TransferKind::Interreflected);
+  EXPECT_EQ(summary.kind, transfer::Kind::Interreflected);
   EXPECT_EQ(summary.bands, 3);
   EXPECT_EQ(summary.seed, 0xfedcba9876543210u);
   EXPECT_EQ(summary.vertices, 16u);
@@ -24,7 +24,7 @@ TEST(Summary, CountsWhatIsThere) {
   EXPECT_EQ(perVertex.material, "coloured");
   ASSERT_TRUE(perVertex.vectors);
   EXPECT_EQ(perVertex.vectors->bytes, 4u * 3u * 9u * 2u);
-  EXPECT_EQ(perVertex.vectors->encoding, encode::Encoding::Float16);
+  EXPECT_EQ(perVertex.vectors->encoding, transfer::Encoding::Float16);
   EXPECT_FALSE(perVertex.matrices);
 
   const MeshSummary& perTexel = summary.meshes[1];
@@ -39,7 +39,7 @@ TEST(Summary, CountsWhatIsThere) {
   EXPECT_EQ(glossy.matrices->lobeExponent, 16.0f);
 
   EXPECT_TRUE(summary.meshes[3].mirror);
-  EXPECT_EQ(summary.meshes[3].layout, transport::Layout::None);
+  EXPECT_EQ(summary.meshes[3].layout, "none");
 
   EXPECT_EQ(summary.bytes.vectors, 4u * 27u * 2u + 6u * 9u * 2u + 4u * 9u * 4u);
   EXPECT_EQ(summary.bytes.matrices, 4u * 36u * 4u);

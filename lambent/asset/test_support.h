@@ -68,10 +68,8 @@ inline void expectSame(const scene::Mesh& a, const scene::Mesh& b) {
   EXPECT_EQ(a.triangles, b.triangles);
 }
 
-inline void expectSame(const encode::Numbers& a, const encode::Numbers& b) {
-  if (!a.empty() || !b.empty()) {
-    EXPECT_EQ(a.encoding, b.encoding);
-  }
+inline void expectSame(const transfer::Numbers& a, const transfer::Numbers& b) {
+  EXPECT_EQ(a.encoding, b.encoding);
   EXPECT_TRUE(sameBits(a.half, b.half));
   EXPECT_TRUE(sameBits(a.single, b.single));
   EXPECT_TRUE(sameBits(a.byte, b.byte));
@@ -79,25 +77,79 @@ inline void expectSame(const encode::Numbers& a, const encode::Numbers& b) {
   EXPECT_EQ(a.block, b.block);
 }
 
-inline void expectSame(const encode::EncodedBiScale& a, const encode::EncodedBiScale& b) {
-  EXPECT_EQ(a.rtt, b.rtt);
-  EXPECT_TRUE(sameBits(a.tangents, b.tangents));
-  ASSERT_EQ(a.idMap.has_value(), b.idMap.has_value());
-  if (a.idMap) {
-    EXPECT_EQ(a.idMap->width, b.idMap->width);
-    EXPECT_EQ(a.idMap->height, b.idMap->height);
-    EXPECT_EQ(a.idMap->ids, b.idMap->ids);
-  } else {
-    EXPECT_EQ(a.tiles, b.tiles);
-  }
-  EXPECT_EQ(a.scale, b.scale);
+inline void expectSame(const transfer::Vectors<transfer::Numbers>& a,
+                       const transfer::Vectors<transfer::Numbers>& b) {
   EXPECT_EQ(a.bands, b.bands);
   EXPECT_EQ(a.channels, b.channels);
-  expectSame(a.shadowed, b.shadowed);
-  expectSame(a.interreflected, b.interreflected);
+  expectSame(a.numbers, b.numbers);
 }
 
-inline void expectSame(const encode::EncodedRtt& a, const encode::EncodedRtt& b) {
+inline void expectSame(const transfer::Matrices<transfer::Numbers>& a,
+                       const transfer::Matrices<transfer::Numbers>& b) {
+  EXPECT_EQ(a.outBands, b.outBands);
+  EXPECT_EQ(a.inBands, b.inBands);
+  EXPECT_EQ(a.channels, b.channels);
+  expectSame(a.numbers, b.numbers);
+}
+
+inline void expectSame(const transfer::SurfaceResponse<transfer::Numbers>& a,
+                       const transfer::SurfaceResponse<transfer::Numbers>& b) {
+  ASSERT_EQ(a.diffuse.has_value(), b.diffuse.has_value());
+  if (a.diffuse) {
+    EXPECT_EQ(a.diffuse->albedo, b.diffuse->albedo);
+    expectSame(a.diffuse->vectors, b.diffuse->vectors);
+  }
+  ASSERT_EQ(a.glossy.has_value(), b.glossy.has_value());
+  if (a.glossy) {
+    EXPECT_TRUE((a.glossy->lobe.reflectance == b.glossy->lobe.reflectance).all());
+    EXPECT_EQ(a.glossy->lobe.exponent, b.glossy->lobe.exponent);
+    expectSame(a.glossy->matrices, b.glossy->matrices);
+  }
+}
+
+template <class T>
+void expectSame(const transfer::ByKind<T>& a, const transfer::ByKind<T>& b) {
+  for (const transfer::Kind kind : transfer::kKinds) {
+    SCOPED_TRACE(int(kind));
+    ASSERT_EQ(a.holds(kind), b.holds(kind));
+    if (a.holds(kind)) expectSame(*a.find(kind), *b.find(kind));
+  }
+}
+
+inline void expectSame(const transfer::Receivers& a, const transfer::Receivers& b) {
+  EXPECT_TRUE(sameBits(a.positions, b.positions));
+  EXPECT_TRUE(sameBits(a.normals, b.normals));
+  ASSERT_EQ(a.where.index(), b.where.index());
+  if (!a.texels()) return;
+  EXPECT_EQ(a.texels()->width, b.texels()->width);
+  EXPECT_EQ(a.texels()->height, b.texels()->height);
+  EXPECT_EQ(a.texels()->covered, b.texels()->covered);
+}
+
+inline void expectSame(const transfer::Surface<transfer::Numbers>& a,
+                       const transfer::Surface<transfer::Numbers>& b) {
+  expectSame(*a.receivers, *b.receivers);
+  expectSame(a.responses, b.responses);
+}
+
+inline void expectSame(const transfer::BiScale<transfer::Numbers>& a,
+                       const transfer::BiScale<transfer::Numbers>& b) {
+  expectSame(*a.receivers, *b.receivers);
+  EXPECT_TRUE(sameBits(a.tangents, b.tangents));
+  EXPECT_EQ(a.patch.rtt, b.patch.rtt);
+  EXPECT_EQ(a.patch.scale, b.patch.scale);
+  ASSERT_EQ(a.patch.place.index(), b.patch.place.index());
+  EXPECT_EQ(a.patch.tiles(), b.patch.tiles());
+  if (a.patch.idMap()) {
+    EXPECT_EQ(a.patch.idMap()->width, b.patch.idMap()->width);
+    EXPECT_EQ(a.patch.idMap()->height, b.patch.idMap()->height);
+    EXPECT_EQ(a.patch.idMap()->ids, b.patch.idMap()->ids);
+  }
+  EXPECT_EQ(a.bands, b.bands);
+  expectSame(a.matrices, b.matrices);
+}
+
+inline void expectSame(const transfer::EncodedRtt& a, const transfer::EncodedRtt& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
@@ -108,29 +160,11 @@ inline void expectSame(const encode::EncodedRtt& a, const encode::EncodedRtt& b)
   expectSame(a.values, b.values);
 }
 
-inline void expectSame(const encode::EncodedMesh& a, const encode::EncodedMesh& b) {
-  EXPECT_EQ(a.layout, b.layout);
-  EXPECT_EQ(a.width, b.width);
-  EXPECT_EQ(a.height, b.height);
-  EXPECT_TRUE(sameBits(a.positions, b.positions));
-  EXPECT_TRUE(sameBits(a.normals, b.normals));
-  EXPECT_EQ(a.covered, b.covered);
-  EXPECT_EQ(a.bands, b.bands);
-  EXPECT_EQ(a.channels, b.channels);
-  EXPECT_EQ(a.albedo, b.albedo);
-  EXPECT_EQ(a.outBands, b.outBands);
-  EXPECT_EQ(a.inBands, b.inBands);
-  EXPECT_EQ(a.matrixChannels, b.matrixChannels);
-  EXPECT_TRUE((a.glossy == b.glossy).all());
-  EXPECT_EQ(a.lobeExponent, b.lobeExponent);
-  expectSame(a.vectors, b.vectors);
-  expectSame(a.matrices, b.matrices);
-  EXPECT_EQ(a.shadowed.channels, b.shadowed.channels);
-  EXPECT_EQ(a.shadowed.matrixChannels, b.shadowed.matrixChannels);
-  expectSame(a.shadowed.vectors, b.shadowed.vectors);
-  expectSame(a.shadowed.matrices, b.shadowed.matrices);
-  ASSERT_EQ(a.biScale.has_value(), b.biScale.has_value());
-  if (a.biScale) expectSame(*a.biScale, *b.biScale);
+inline void expectSame(const transfer::NoTransfer&, const transfer::NoTransfer&) {}
+
+inline void expectSame(const transfer::EncodedMesh& a, const transfer::EncodedMesh& b) {
+  ASSERT_EQ(a.index(), b.index());
+  std::visit([&](const auto& x) { expectSame(x, std::get<std::decay_t<decltype(x)>>(b)); }, a);
 }
 
 inline void expectSame(const Asset& a, const Asset& b) {

@@ -26,7 +26,7 @@ struct Atlas {
   std::vector<std::uint32_t> chartOfTriangle;
   std::uint32_t charts = 0;
   bool ownUvs = false;        ///< the mesh's own UVs were taken
-  double stretch = 1.0;       ///< L² stretch over the whole surface (Sander 2001), 1 at best
+  double stretch = 1.0;       ///< L² stretch over the whole surface (sander2001texture), 1 at best
   double worstStretch = 1.0;  ///< of the worst chart
   double usedArea = 0.0;      ///< share of the square that charts cover
 };

@@ -16,9 +16,9 @@ using Vec2d = Eigen::Vector2d;
 /// of a single triangle keeps its shape exactly, and always succeeds.
 std::optional<std::vector<Vec2d>> flatten(const ChartPatch& patch);
 
-/// L² stretch of a triangle (Sander 2001 §3, eq. for L²(T)): root mean square, over directions, of
-/// how much longer the surface is than its picture. Infinite for a picture without area or turned
-/// over.
+/// L² stretch of a triangle (sander2001texture §3, eq. for L²(T)): root mean square, over
+/// directions, of how much longer the surface is than its picture. Infinite for a picture without
+/// area or turned over.
 double triangleStretch(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec2d& pa,
                        const Vec2d& pb, const Vec2d& pc);
 

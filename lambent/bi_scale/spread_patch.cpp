@@ -1,7 +1,6 @@
 // This work is based on:
 // - sloan2003biscale: §4.3, the id map in three steps (synthesise, parameterise, look up), and
-// §4.1,
-//   matrices at the vertices; the frames of both are the same tangent field.
+//   §4.1, matrices at the vertices; the frames of both are the same tangent field.
 //
 // Where we deviate, and why: the surface is laid out first and the tangent field computed on what
 // that leaves, so that vertices doubled along the borders of charts get the same tangent.
@@ -18,6 +17,7 @@
 #include "lambent/synthesis/place_ids.h"
 #include "lambent/synthesis/synthesize.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::bi_scale {
 
@@ -43,9 +43,7 @@ auto staged(const Progress& progress, std::string_view stage, Work&& work) {
 /// Where a mesh carries the patch.
 struct Placed {
   std::uint32_t mesh = 0;
-  float scale = 1.0f;
-  Vec2 tiles = Vec2(1.0f, 1.0f);
-  std::optional<synthesis::IdMap> idMap;
+  transfer::Patch patch;
 };
 
 std::string quoted(const scene::Mesh& mesh, std::uint32_t index) {
@@ -78,7 +76,7 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const scene::Scene& scene,
 }
 
 /// Everything that the patch brings along replaces the mesh's own.
-void replaceMaterial(scene::Scene& scene, std::uint32_t mesh, const encode::EncodedRtt& rtt,
+void replaceMaterial(scene::Scene& scene, std::uint32_t mesh, const transfer::EncodedRtt& rtt,
                      const Rgb& albedo, Findings& findings) {
   const scene::Material& old = scene.materials[std::size_t(scene.meshes[mesh].material)];
   if (old.baseColorTexture >= 0 || !scene.meshes[mesh].colors.empty())
@@ -119,22 +117,18 @@ void dropUnused(scene::Scene& scene) {
   scene.textures = std::move(textures);
 }
 
-encode::EncodedBiScale encodeLocal(const transport::LocalTransfer& local, Placed& placed,
-                                   encode::Encoding encoding, SpreadReport& report) {
-  encode::EncodedBiScale biScale = encode::encode(local, encoding);
-  report.matrixError = local.interreflected.empty()
-                           ? encode::encodingError(local.shadowed, biScale.shadowed)
-                           : encode::encodingError(local.interreflected, biScale.interreflected);
-  biScale.rtt = 0;
-  biScale.scale = placed.scale;
-  biScale.tiles = placed.tiles;
-  biScale.idMap = std::move(placed.idMap);
-  return biScale;
+/// What the encoding of the matrices costs: relative RMS, of the most that is held.
+double matrixError(const transfer::BiScale<transfer::Floats>& exact,
+                   const transfer::BiScale<transfer::Numbers>& encoded) {
+  const auto most = exact.matrices.most();
+  return most ? transfer::encodingError(exact.matrices.find(*most)->numbers,
+                                        encoded.matrices.find(*most)->numbers)
+              : 0.0;
 }
 
 struct Spreader {
   scene::Scene& scene;
-  const encode::EncodedRtt& rtt;
+  const transfer::EncodedRtt& rtt;
   const SpreadOptions& options;
   const Progress& progress;
   Findings& findings;
@@ -150,15 +144,15 @@ struct Spreader {
     tangents = std::move(frames->value);
     const Vec2 metres = metresPerUv(mesh);
     const float aspect = rtt.size.y() / rtt.size.x();
-    placed.tiles = options.tiles;
+    Vec2 tiles = options.tiles;
     // Whole numbers, so that a surface closed in u or v stays without a seam.
-    if (!(placed.tiles.x() > 0.0f))
-      placed.tiles.x() = std::max(1.0f, std::round(metres.x() / report.patchWidth));
-    if (!(placed.tiles.y() > 0.0f))
-      placed.tiles.y() = std::max(1.0f, std::round(metres.y() / (report.patchWidth * aspect)));
-    report.patchWidth = metres.x() / placed.tiles.x();
+    if (!(tiles.x() > 0.0f)) tiles.x() = std::max(1.0f, std::round(metres.x() / report.patchWidth));
+    if (!(tiles.y() > 0.0f))
+      tiles.y() = std::max(1.0f, std::round(metres.y() / (report.patchWidth * aspect)));
+    placed.patch.place = transfer::Tiles{tiles};
+    report.patchWidth = metres.x() / tiles.x();
     report.ownUvs = true;
-    const Vec2 asked(metres.x() / placed.tiles.x(), metres.y() / placed.tiles.y());
+    const Vec2 asked(metres.x() / tiles.x(), metres.y() / tiles.y());
     const float squash = asked.y() / (asked.x() * aspect);
     if (squash > 1.5f || squash < 1.0f / 1.5f)
       findings.push_back(
@@ -189,7 +183,7 @@ struct Spreader {
     findings.insert(findings.end(), combed->findings.begin(), combed->findings.end());
     synthesis::TangentField* const field = &combed->value;
 
-    const Vec2 patch = placed.scale * rtt.size;
+    const Vec2 patch = placed.patch.scale * rtt.size;
     const double positions = report.patches * rtt.width * rtt.height;
     synthesis::MesoMeshOptions mesoOptions;
     mesoOptions.vertices =
@@ -203,7 +197,7 @@ struct Spreader {
 
     if (!appearance)
       appearance = staged(progress, "appearance",
-                          [&] { return synthesis::appearanceOf(encode::decode(rtt)); });
+                          [&] { return synthesis::appearanceOf(transfer::decode(rtt)); });
     synthesis::SynthesisOptions synthesisOptions;
     synthesisOptions.patchSize = patch;
     synthesisOptions.randomness =
@@ -219,7 +213,7 @@ struct Spreader {
                                    {.size = options.atlas.size, .patchSize = patch}, progress);
     if (!ids) return named(ids.error(), mesh, index);
 
-    placed.idMap = std::move(*ids);
+    placed.patch.place = std::move(*ids);
     tangents = std::move(field->tangents);
     report.mesoVertices = std::uint32_t(meso->positions.size());
     report.singularities = std::uint32_t(field->singularities.size());
@@ -242,16 +236,16 @@ double areaOf(const scene::Mesh& mesh) {
   return area;
 }
 
-float automaticPatchWidth(double area, const encode::EncodedRtt& rtt, std::uint32_t mesoVertices) {
+float automaticPatchWidth(double area, const transfer::EncodedRtt& rtt,
+                          std::uint32_t mesoVertices) {
   const double vertices = mesoVertices > 0 ? mesoVertices : kMostMesoVertices;
   const double patches = std::min(kAutomaticPatches, vertices / (double(rtt.width) * rtt.height));
   const double aspect = double(rtt.size.y()) / rtt.size.x();
   return float(std::sqrt(area / (patches * aspect)));
 }
 
-Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
-                           const SpreadOptions& options, const Progress& progress,
-                           Findings& findings) {
+Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::EncodedRtt& rtt,
+                                         const SpreadOptions& options, const Progress& progress) {
   const auto chosen = chosenMeshes(scene, options);
   if (!chosen) return chosen.error();
   if (options.transfer.bands != rtt.bands)
@@ -265,7 +259,9 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
                           ? options.patchWidth
                           : automaticPatchWidth(area, rtt, options.mesoVertices);
 
-  Spread spread;
+  WithFindings<Spread> result;
+  Spread& spread = result.value;
+  Findings& findings = result.findings;
   Spreader spreader{scene, rtt, options, progress, findings, spread, {}};
   transport::Placement placement;
   std::vector<Placed> all;
@@ -277,9 +273,9 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
     report.patchWidth = width;
     Placed& placed = all.emplace_back();
     placed.mesh = m;
-    placed.scale = width / rtt.size.x();
-    report.patches =
-        report.area / (double(placed.scale) * placed.scale * rtt.size.x() * rtt.size.y());
+    placed.patch.scale = width / rtt.size.x();
+    report.patches = report.area / (double(placed.patch.scale) * placed.patch.scale * rtt.size.x() *
+                                    rtt.size.y());
     replaceMaterial(scene, m, rtt, options.albedo, findings);
     transport::LocalFrames& frames = placement.local.emplace_back();
     frames.mesh = m;
@@ -287,9 +283,9 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
                               ? spreader.byOwnUvs(m, report, placed, frames.tangents)
                               : spreader.bySynthesis(m, report, placed, frames.tangents);
     if (!status) return status.error();
-    placed.scale = report.patchWidth / rtt.size.x();
-    report.patches =
-        report.area / (double(placed.scale) * placed.scale * rtt.size.x() * rtt.size.y());
+    placed.patch.scale = report.patchWidth / rtt.size.x();
+    report.patches = report.area / (double(placed.patch.scale) * placed.patch.scale * rtt.size.x() *
+                                    rtt.size.y());
     report.vertices = std::uint32_t(scene.meshes[m].positions.size());
   }
   dropUnused(scene);
@@ -301,26 +297,23 @@ Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
   if (!receivers) return receivers.error();
   auto baked = macro::bake(scene, *rays, *receivers, options.transfer, progress);
   if (!baked) return baked.error();
-  transport::TransferField& field = baked->value;
+  transfer::SimulatedField& field = baked->value;
   findings.insert(findings.end(), baked->findings.begin(), baked->findings.end());
-  encode::EncodedField& transfer = spread.asset.transfer;
+  for (Placed& placed : all)
+    std::get<transfer::BiScale<transfer::Floats>>(field.meshes[placed.mesh]).patch =
+        std::move(placed.patch);
+  transfer::EncodedField& transfer = spread.asset.transfer;
   transfer = staged(progress, "encode", [&] {
     // The matrices have an encoding of their own.
-    std::vector<transport::LocalTransfer> locals;
-    for (const Placed& placed : all) {
-      transport::LocalTransfer& local = *field.meshes[placed.mesh].local;
-      locals.push_back(std::move(local));
-      local = {};
-    }
-    encode::EncodedField encoded = encode::encode(field, options.vectorEncoding);
-    for (std::size_t k = 0; k < all.size(); ++k)
-      encoded.meshes[all[k].mesh].biScale =
-          encodeLocal(locals[k], all[k], options.matrixEncoding, spread.reports[k]);
-    return encoded;
+    return transfer::encode(field, {options.vectorEncoding, options.matrixEncoding});
   });
+  for (std::size_t k = 0; k < all.size(); ++k)
+    spread.reports[k].matrixError =
+        matrixError(std::get<transfer::BiScale<transfer::Floats>>(field.meshes[all[k].mesh]),
+                    std::get<transfer::BiScale<transfer::Numbers>>(transfer.meshes[all[k].mesh]));
   transfer.rtts = {rtt};
   spread.asset.scene = std::move(scene);
-  return spread;
+  return result;
 }
 
 }  // namespace lambent::bi_scale

@@ -1,5 +1,5 @@
-// Scene + RTT → bi-scale asset (Sloan 2003 §4): where texture synthesis and macro-scale transfer
-// meet.
+// Scene + RTT → bi-scale asset (sloan2003biscale §4): where texture synthesis and macro-scale
+// transfer meet.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,6 @@
 #include "lambent/asset/asset.h"
 #include "lambent/atlas/atlas.h"
 #include "lambent/macro/bake.h"
-#include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
@@ -41,8 +40,9 @@ struct SpreadOptions {
   Rgb albedo =
       Rgb::Constant(0.5f);  ///< of the patch as a whole: what it sends on to other surfaces
   macro::BakeOptions transfer;
-  encode::Encoding matrixEncoding = encode::Encoding::Snorm8;
-  encode::Encoding vectorEncoding = encode::Encoding::Float16;  ///< of other meshes in the scene
+  transfer::Encoding matrixEncoding = transfer::Encoding::Snorm8;
+  transfer::Encoding vectorEncoding =
+      transfer::Encoding::Float16;  ///< of other meshes in the scene
 };
 
 /// What was done to one mesh.
@@ -70,13 +70,13 @@ struct Spread {
 /// The patch's colours and relief take the place of the material, texture and vertex colours of the
 /// meshes that carry it. Everything else in the scene is baked at its vertices. BadInput
 /// and BadUsage name the mesh.
-Result<Spread> spreadPatch(scene::Scene scene, const encode::EncodedRtt& rtt,
-                           const SpreadOptions& options, const Progress& progress,
-                           Findings& findings);
+Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::EncodedRtt& rtt,
+                                         const SpreadOptions& options,
+                                         const Progress& progress = {});
 
 /// The width at which a surface of `area` m² holds 200 patches or, if that is fewer, as many as a
 /// meso-mesh of so many vertices (0: 960,000) shows position by position.
-float automaticPatchWidth(double area, const encode::EncodedRtt& rtt, std::uint32_t mesoVertices);
+float automaticPatchWidth(double area, const transfer::EncodedRtt& rtt, std::uint32_t mesoVertices);
 
 double areaOf(const scene::Mesh& mesh);  ///< m²
 

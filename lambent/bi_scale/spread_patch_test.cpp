@@ -9,13 +9,16 @@
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::bi_scale {
 namespace {
 
 /// Flat stripes and spots, B_i = ρ(u)/π Â_l y_i(+z).
-encode::EncodedRtt paintedRtt(int bands = 3) {
-  meso::RadianceTransferTexture rtt;
+using BiScale = transfer::BiScale<transfer::Numbers>;
+
+transfer::EncodedRtt paintedRtt(int bands = 3) {
+  transfer::SimulatedRtt rtt;
   rtt.name = "spots";
   rtt.width = 16, rtt.height = 12, rtt.views = 2, rtt.bands = bands;
   rtt.size = Vec2(0.16f, 0.12f);
@@ -32,7 +35,7 @@ encode::EncodedRtt paintedRtt(int bands = 3) {
             rtt.values[rtt.index(i, x, row, view % 2, view / 2) + c] =
                 float((0.5 + 0.3 * spot - 0.1 * c) / kPi * cosine[sh::bandOf(i)] * y[i]);
       }
-  return encode::encode(rtt, encode::Encoding::Float16);
+  return transfer::encode(rtt, transfer::Encoding::Float16);
 }
 
 SpreadOptions small() {
@@ -46,16 +49,14 @@ SpreadOptions small() {
   return options;
 }
 
-Spread spreadOrDie(const scene::Scene& scene, const SpreadOptions& options, Findings& findings) {
-  auto spread = spreadPatch(scene, paintedRtt(), options, {}, findings);
+Spread spreadOrDie(const scene::Scene& scene, const SpreadOptions& options) {
+  auto spread = spreadPatch(scene, paintedRtt(), options);
   EXPECT_TRUE(spread) << spread.error().message;
-  return spread ? std::move(*spread) : Spread{};
+  return spread ? std::move(spread->value) : Spread{};
 }
 
 TEST(SpreadPatch, MakesAnAssetThatCanBeWritten) {
-  Findings findings;
-  const Spread spread =
-      spreadOrDie(scene::sceneOf(scene::torus(1, 0.4f, 40, 20)), small(), findings);
+  const Spread spread = spreadOrDie(scene::sceneOf(scene::torus(1, 0.4f, 40, 20)), small());
   const Status sound = asset::checkForWriting(spread.asset);
   EXPECT_TRUE(sound) << sound.error().message;
   ASSERT_EQ(spread.reports.size(), 1u);
@@ -65,21 +66,21 @@ TEST(SpreadPatch, MakesAnAssetThatCanBeWritten) {
   EXPECT_EQ(report.singularities, 0u);  // a torus can be combed
   EXPECT_GE(report.stretch, 1.0);
   EXPECT_GT(report.usedArea, 0.3);
-  const encode::EncodedBiScale& patch = *spread.asset.transfer.meshes[0].biScale;
-  ASSERT_TRUE(patch.idMap);
-  EXPECT_EQ(patch.idMap->width, 256);
-  EXPECT_NEAR(patch.scale, 0.5f / 0.16f, 1e-5f);
-  EXPECT_TRUE(patch.shadowed.empty());
-  EXPECT_FALSE(patch.interreflected.empty());
+  const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
+  ASSERT_TRUE(biScale.patch.idMap());
+  EXPECT_EQ(biScale.patch.idMap()->width, 256);
+  EXPECT_NEAR(biScale.patch.scale, 0.5f / 0.16f, 1e-5f);
+  EXPECT_FALSE(biScale.matrices.holds(transfer::Kind::Shadowed));
+  EXPECT_TRUE(biScale.matrices.holds(transfer::Kind::Interreflected));
 }
 
 TEST(SpreadPatch, VerticesThatWereOneKeepOneFrameAndOneMatrix) {
-  Findings findings;
-  const Spread spread = spreadOrDie(scene::sceneOf(scene::icosphere(1, 3)), small(), findings);
+  const Spread spread = spreadOrDie(scene::sceneOf(scene::icosphere(1, 3)), small());
   const scene::Mesh& mesh = spread.asset.scene.meshes[0];
-  const encode::EncodedBiScale& patch = *spread.asset.transfer.meshes[0].biScale;
+  const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
   ASSERT_GT(mesh.positions.size(), 642u);  // charts doubled some
-  const std::vector<float> matrices = decode(patch.interreflected);
+  const std::vector<float> matrices =
+      decode(biScale.matrices.find(transfer::Kind::Interreflected)->numbers);
   const std::vector<std::uint32_t>& source = spread.atlases[0].sourceVertex;
   std::vector<std::int64_t> first(642, -1);
   std::size_t doubled = 0;
@@ -90,7 +91,7 @@ TEST(SpreadPatch, VerticesThatWereOneKeepOneFrameAndOneMatrix) {
       continue;
     }
     ++doubled;
-    EXPECT_LT((patch.tangents[v] - patch.tangents[std::size_t(one)]).norm(), 1e-5f);
+    EXPECT_LT((biScale.tangents[v] - biScale.tangents[std::size_t(one)]).norm(), 1e-5f);
     for (int k = 0; k < 81; ++k)
       EXPECT_NEAR(matrices[v * 81 + k], matrices[std::size_t(one) * 81 + k], 0.02f);
   }
@@ -101,10 +102,10 @@ TEST(SpreadPatch, IsTheSameAtAnyThreadCount) {
   const scene::Scene scene = scene::sceneOf(scene::icosphere(1, 3));
   const auto ids = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    Findings findings;
-    const Spread spread = spreadOrDie(scene, small(), findings);
-    return std::pair(spread.asset.transfer.meshes[0].biScale->idMap->ids,
-                     spread.asset.transfer.meshes[0].biScale->interreflected.byte);
+    const Spread spread = spreadOrDie(scene, small());
+    const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
+    return std::pair(biScale.patch.idMap()->ids,
+                     biScale.matrices.find(transfer::Kind::Interreflected)->numbers.byte);
   };
   EXPECT_EQ(ids(1), ids(4));
 }
@@ -112,14 +113,13 @@ TEST(SpreadPatch, IsTheSameAtAnyThreadCount) {
 TEST(SpreadPatch, OwnUvsRepeatThePatchAWholeNumberOfTimes) {
   SpreadOptions options = small();
   options.placement = Placement::OwnUvs;
-  Findings findings;
-  const Spread spread =
-      spreadOrDie(scene::sceneOf(scene::torus(1, 0.4f, 40, 20)), options, findings);
-  const encode::EncodedBiScale& patch = *spread.asset.transfer.meshes[0].biScale;
-  EXPECT_FALSE(patch.idMap);
-  EXPECT_EQ(patch.tiles.x(), std::round(patch.tiles.x()));
-  EXPECT_EQ(patch.tiles.y(), std::round(patch.tiles.y()));
-  EXPECT_NEAR(patch.tiles.x() * spread.reports[0].patchWidth, 2 * kPi * 1.05, 0.6);
+  const Spread spread = spreadOrDie(scene::sceneOf(scene::torus(1, 0.4f, 40, 20)), options);
+  const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
+  EXPECT_FALSE(biScale.patch.idMap());
+  const Vec2 tiles = biScale.patch.tiles();
+  EXPECT_EQ(tiles.x(), std::round(tiles.x()));
+  EXPECT_EQ(tiles.y(), std::round(tiles.y()));
+  EXPECT_NEAR(tiles.x() * spread.reports[0].patchWidth, 2 * kPi * 1.05, 0.6);
   EXPECT_TRUE(asset::checkForWriting(spread.asset));
 }
 
@@ -131,39 +131,35 @@ TEST(SpreadPatch, LeavesOtherMeshesAsTheyAre) {
   scene::addTo(scene, scene::translated(scene::icosphere(0.5f, 2), Vec3(0, 0.6f, 0)), {});
   SpreadOptions options = small();
   options.meshes = {1};
-  Findings findings;
-  const Spread spread = spreadOrDie(scene, options, findings);
-  EXPECT_FALSE(spread.asset.transfer.meshes[0].biScale);
-  EXPECT_FALSE(spread.asset.transfer.meshes[0].vectors.empty());
-  EXPECT_TRUE(spread.asset.transfer.meshes[1].biScale);
+  const Spread spread = spreadOrDie(scene, options);
+  const auto* bare =
+      std::get_if<transfer::Surface<transfer::Numbers>>(&spread.asset.transfer.meshes[0]);
+  ASSERT_TRUE(bare);
+  EXPECT_FALSE(bare->responses.find(spread.asset.transfer.kind)->diffuse->vectors.numbers.empty());
+  EXPECT_TRUE(std::holds_alternative<BiScale>(spread.asset.transfer.meshes[1]));
   EXPECT_EQ(spread.asset.scene.materials.size(), 2u);
   EXPECT_EQ(spread.asset.scene.materials[spread.asset.scene.meshes[1].material].name, "spots");
 }
 
 TEST(SpreadPatch, RefusesWhatCannotBe) {
-  Findings findings;
   scene::Material mirror;
   mirror.mirror = Rgb::Ones();
   SpreadOptions options = small();
-  auto refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 1), mirror), paintedRtt(), options,
-                             {}, findings);
+  auto refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 1), mirror), paintedRtt(), options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
   options.transfer.bands = 5;
-  refused =
-      spreadPatch(scene::sceneOf(scene::icosphere(1, 1)), paintedRtt(), options, {}, findings);
+  refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 1)), paintedRtt(), options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::BadUsage);
   options = small();
   options.meshes = {3};
-  refused =
-      spreadPatch(scene::sceneOf(scene::icosphere(1, 1)), paintedRtt(), options, {}, findings);
+  refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 1)), paintedRtt(), options);
   ASSERT_FALSE(refused);
   options = small();
   int updates = 0;
-  refused = spreadPatch(
-      scene::sceneOf(scene::icosphere(1, 3)), paintedRtt(), options,
-      [&](const ProgressUpdate&) { return ++updates < 3; }, findings);
+  refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 3)), paintedRtt(), options,
+                        [&](const ProgressUpdate&) { return ++updates < 3; });
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::Cancelled);
 }

@@ -85,8 +85,11 @@ std::vector<BlendWeights> blendWeights(std::span<const Vec3> points,
 
 Blending blendOver(const asset::Asset& asset, std::vector<Vec3> samples) {
   Blending result;
-  for (const encode::EncodedMesh& mesh : asset.transfer.meshes)
-    result.meshes.push_back(blendWeights(mesh.positions, samples));
+  for (const transfer::EncodedMesh& mesh : asset.transfer.meshes) {
+    const transfer::Receivers* receivers = transfer::receiversOf(mesh);
+    result.meshes.push_back(receivers ? blendWeights(receivers->positions, samples)
+                                      : std::vector<BlendWeights>{});
+  }
   result.samples = std::move(samples);
   return result;
 }

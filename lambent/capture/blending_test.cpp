@@ -126,8 +126,11 @@ TEST(Blending, CoincidingSamplesAreFinite) {
 
 TEST(Blending, OverAnAssetHasAnEntryForEveryReceiver) {
   asset::Asset asset;
-  asset.transfer.meshes.resize(2);  // the second has no receivers: a mirror
-  asset.transfer.meshes[0].positions = somePoints(11, 9);
+  transfer::Receivers receivers;
+  receivers.positions = somePoints(11, 9);
+  asset.transfer.meshes = {transfer::Surface<transfer::Numbers>{
+                               std::make_shared<const transfer::Receivers>(receivers), {}},
+                           transfer::NoTransfer{}};  // a mirror
   const Blending blending = blendOver(asset, somePoints(3, 10));
   ASSERT_EQ(blending.meshes.size(), 2u);
   EXPECT_EQ(blending.meshes[0].size(), 11u);

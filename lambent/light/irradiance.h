@@ -1,5 +1,6 @@
-// The irradiance map of nine coefficients (Ramamoorthi 2001): irradiance as a quadratic polynomial
-// in the normal, or as a 4×4 matrix. The sequence of harmonics is ours, which is the paper's.
+// The irradiance map of nine coefficients (ramamoorthi2001efficient): irradiance as a quadratic
+// polynomial in the normal, or as a 4×4 matrix. The sequence of harmonics is ours, which is the
+// paper's.
 //
 // This work is based on:
 // - ramamoorthi2001efficient: eq. 7-9 (convolution with the clamped cosine), 11-13.

@@ -1,7 +1,7 @@
-// The passes of a bake (Sloan 2002 §5): direct light, then bounce after bounce until the energy of
-// a pass falls below a threshold or the bounces are used up.
+// The passes of a bake (sloan2002precomputed §5): direct light, then bounce after bounce until the
+// energy of a pass falls below a threshold or the bounces are used up.
 //
-// Simulate → Encode → Evaluate: this is Simulate; lambent/encode and lambent/shade go on.
+// Simulate → Encode → Evaluate: this is Simulate; transfer::encode and lambent/shade go on.
 //
 // Results do not depend on the number of threads: passes.h says why, and what is summed here is
 // summed chunk by chunk in sequence.
@@ -21,7 +21,7 @@ namespace lambent::macro {
 
 namespace {
 
-Status check(const BakeOptions& options, const Receivers& receivers) {
+Status check(const BakeOptions& options, const PlacedReceivers& receivers) {
   const auto outside = [](const char* name, auto value, auto low, auto high) {
     return report::badUsage(std::string(name) + " is " + std::to_string(value) + ", not " +
                             std::to_string(low) + " to " + std::to_string(high));
@@ -36,7 +36,7 @@ Status check(const BakeOptions& options, const Receivers& receivers) {
     return outside("bounces", options.bounces, 0, 1000);
   const bool isLocal =
       std::any_of(receivers.meshes.begin(), receivers.meshes.end(),
-                  [](const Receivers::PerMesh& mesh) { return mesh.local.has_value(); });
+                  [](const PlacedReceivers::PerMesh& mesh) { return mesh.local.has_value(); });
   if (isLocal && options.glossyBands != 0 && options.glossyBands != options.bands)
     return report::badUsage("glossy bands are " + std::to_string(options.glossyBands) +
                             " and bands " + std::to_string(options.bands) +
@@ -57,12 +57,12 @@ struct Sums {
 struct Simulated {
   Sums sums;                       ///< over all passes
   Sums direct;                     ///< pass 0, if it is to be kept beside
-  std::vector<double> passEnergy;  ///< TransferField::passEnergy
+  std::vector<double> passEnergy;  ///< transfer::SimulatedField::passEnergy
   HitCounts counts;                ///< of pass 0
 };
 
 bool keepsShadowed(const Simulation& s) {
-  return s.options.keepShadowed && s.options.kind == TransferKind::Interreflected;
+  return s.options.keepShadowed && s.options.kind == transfer::Kind::Interreflected;
 }
 
 /// to += from, number by number.
@@ -111,12 +111,12 @@ Result<Simulated> simulate(const Simulation& s, const Progress& progress) {
   return out;
 }
 
-TransferField fieldOf(const Simulation& s, const Simulated& simulated) {
+transfer::SimulatedField fieldOf(const Simulation& s, const Simulated& simulated) {
   const BakeOptions& options = s.options;
-  TransferField field;
+  transfer::SimulatedField field;
   field.kind = options.kind;
   field.bands = options.bands;
-  field.directions = options.kind == TransferKind::Unshadowed ? 0 : options.directions;
+  field.directions = options.kind == transfer::Kind::Unshadowed ? 0 : options.directions;
   field.bounces = static_cast<int>(simulated.passEnergy.size()) - 1;
   field.seed = options.seed;
   field.passEnergy = simulated.passEnergy;
@@ -162,9 +162,11 @@ void tellOfEmitters(const scene::Scene& scene, Findings& findings) {
 
 }  // namespace
 
-Result<WithFindings<TransferField>> bake(const scene::Scene& scene, const trace::RayScene& rays,
-                                         const Receivers& receivers, const BakeOptions& options,
-                                         const Progress& progress) {
+Result<WithFindings<transfer::SimulatedField>> bake(const scene::Scene& scene,
+                                                    const trace::RayScene& rays,
+                                                    const PlacedReceivers& receivers,
+                                                    const BakeOptions& options,
+                                                    const Progress& progress) {
   assert(receivers.meshes.size() == scene.meshes.size());
   if (Status sane = check(options, receivers); !sane) return sane.error();
   const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
@@ -173,9 +175,10 @@ Result<WithFindings<TransferField>> bake(const scene::Scene& scene, const trace:
   const Result<Simulated> simulated = simulate(simulation, progress);
   if (!simulated) return simulated.error();
   Findings findings;
-  if (options.kind != TransferKind::Unshadowed) tellOfHits(simulated->counts, findings);
+  if (options.kind != transfer::Kind::Unshadowed) tellOfHits(simulated->counts, findings);
   tellOfEmitters(scene, findings);
-  return WithFindings<TransferField>{fieldOf(simulation, *simulated), std::move(findings)};
+  return WithFindings<transfer::SimulatedField>{fieldOf(simulation, *simulated),
+                                                std::move(findings)};
 }
 
 }  // namespace lambent::macro

@@ -1,4 +1,5 @@
-// Macro-scale radiance transfer (Sloan 2002 §5): Scene and receivers → TransferField.
+// Macro-scale radiance transfer (sloan2002precomputed §5): Scene and receivers →
+// transfer::SimulatedField.
 #pragma once
 
 #include "lambent/report/finding.h"
@@ -6,13 +7,13 @@
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/transfer/field.h"
 #include "lambent/transport/receivers.h"
-#include "lambent/transport/transfer_field.h"
 
 namespace lambent::macro {
 
 struct BakeOptions {
-  transport::TransferKind kind = transport::TransferKind::Interreflected;
+  transfer::Kind kind = transfer::Kind::Interreflected;
   int bands = 5;          ///< of the light, 1 … 10
   int glossyBands = 0;    ///< rows of glossy matrices, 1 … 10; 0: as bands
   int directions = 8192;  ///< over the whole sphere; half of them face any receiver
@@ -31,9 +32,9 @@ struct BakeOptions {
 /// How all `receivers` of the scene answer to light, wherever transport::placeReceivers has put
 /// them. Findings: receivers inside a mesh, rays that met back faces, light that is left out.
 /// BadUsage for options out of range; Cancelled.
-Result<WithFindings<transport::TransferField>> bake(const scene::Scene& scene,
+Result<WithFindings<transfer::SimulatedField>> bake(const scene::Scene& scene,
                                                     const trace::RayScene& rays,
-                                                    const transport::Receivers& receivers,
+                                                    const transport::PlacedReceivers& receivers,
                                                     const BakeOptions& options,
                                                     const Progress& progress);
 

@@ -11,43 +11,43 @@
 namespace lambent::macro {
 namespace {
 
-void expectSameNumbers(const TransferField& a, const TransferField& b) {
+void expectSameNumbers(const transfer::SimulatedField& a, const transfer::SimulatedField& b) {
   ASSERT_EQ(a.meshes.size(), b.meshes.size());
   EXPECT_EQ(a.passEnergy, b.passEnergy);
   for (std::size_t m = 0; m < a.meshes.size(); ++m) {
-    EXPECT_EQ(a.meshes[m].vectors, b.meshes[m].vectors);
-    EXPECT_EQ(a.meshes[m].matrices, b.meshes[m].matrices);
+    EXPECT_EQ(meshOf(a, m).vectors, meshOf(b, m).vectors);
+    EXPECT_EQ(meshOf(a, m).matrices, meshOf(b, m).matrices);
   }
 }
 
 TEST(Bake, IsTheSameAtAnyThreadCount) {
   BakeOptions options = small();
   options.threads = 1;
-  const TransferField one = bakeOrDie(mixedScene(), options);
+  const transfer::SimulatedField one = bakeOrDie(mixedScene(), options);
   options.threads = 4;
-  const TransferField four = bakeOrDie(mixedScene(), options);
+  const transfer::SimulatedField four = bakeOrDie(mixedScene(), options);
   expectSameNumbers(one, four);
 }
 
 TEST(Bake, IsTheSameWhenHitsDoNotFitAndAreCastAgain) {
   BakeOptions options = small();
-  const TransferField kept = bakeOrDie(mixedScene(), options);
+  const transfer::SimulatedField kept = bakeOrDie(mixedScene(), options);
   options.hitMemory = 0;
-  const TransferField again = bakeOrDie(mixedScene(), options);
+  const transfer::SimulatedField again = bakeOrDie(mixedScene(), options);
   expectSameNumbers(kept, again);
 }
 
 TEST(Bake, SeedsGiveIndependentErrorsOfTheSameSize) {
   BakeOptions options = small();
-  options.kind = TransferKind::Shadowed;
-  const TransferField a = bakeOrDie(mixedScene(), options);
+  options.kind = transfer::Kind::Shadowed;
+  const transfer::SimulatedField a = bakeOrDie(mixedScene(), options);
   options.seed = 1;
-  const TransferField b = bakeOrDie(mixedScene(), options);
-  EXPECT_NE(a.meshes[0].vectors, b.meshes[0].vectors);
+  const transfer::SimulatedField b = bakeOrDie(mixedScene(), options);
+  EXPECT_NE(meshOf(a, 0).vectors, meshOf(b, 0).vectors);
   double difference = 0.0, size = 0.0;
-  for (std::size_t k = 0; k < a.meshes[0].vectors.size(); ++k) {
-    difference += std::pow(a.meshes[0].vectors[k] - b.meshes[0].vectors[k], 2);
-    size += std::pow(a.meshes[0].vectors[k], 2);
+  for (std::size_t k = 0; k < meshOf(a, 0).vectors.size(); ++k) {
+    difference += std::pow(meshOf(a, 0).vectors[k] - meshOf(b, 0).vectors[k], 2);
+    size += std::pow(meshOf(a, 0).vectors[k], 2);
   }
   EXPECT_LT(std::sqrt(difference / size), 0.05);
 }
@@ -65,8 +65,8 @@ TEST(Bake, LeavesEmissionOutAndSaysSo) {
 }
 
 TEST(Bake, ARedWallBleedsRed) {
-  const TransferField field = bakeOrDie(mixedScene(), small());
-  const MeshTransfer& floor = field.meshes[0];
+  const transfer::SimulatedField field = bakeOrDie(mixedScene(), small());
+  const BakedMesh floor = meshOf(field, 0);
   ASSERT_EQ(floor.channels, 3);
   // Beside the wall the floor is redder than far from it.
   const auto redness = [&](float x) {
@@ -82,12 +82,12 @@ TEST(Bake, ARedWallBleedsRed) {
 }
 
 TEST(Bake, EveryKindOfReceiverIsServed) {
-  const TransferField field = bakeOrDie(mixedScene(), small());
-  EXPECT_FALSE(field.meshes[0].vectors.empty());
-  EXPECT_TRUE(field.meshes[0].matrices.empty());
-  EXPECT_FALSE(field.meshes[2].vectors.empty());
-  EXPECT_EQ(field.meshes[2].matrices.size(), field.meshes[2].receiverCount() * 3 * 9 * 9);
-  EXPECT_EQ(field.meshes[3].layout, Layout::None);
+  const transfer::SimulatedField field = bakeOrDie(mixedScene(), small());
+  EXPECT_FALSE(meshOf(field, 0).vectors.empty());
+  EXPECT_TRUE(meshOf(field, 0).matrices.empty());
+  EXPECT_FALSE(meshOf(field, 2).vectors.empty());
+  EXPECT_EQ(meshOf(field, 2).matrices.size(), meshOf(field, 2).receiverCount() * 3 * 9 * 9);
+  EXPECT_TRUE(std::holds_alternative<transfer::NoTransfer>(field.meshes[3]));
   ASSERT_EQ(field.passEnergy.size(), 3u);
   EXPECT_LT(field.passEnergy[2], field.passEnergy[1]);
   EXPECT_LT(field.passEnergy[1], field.passEnergy[0]);
@@ -106,28 +106,28 @@ TEST(Bake, KeptShadowedTransferIsAShadowedBake) {
         options.glossyBands = 2;
         const Placement placement{{{0, 20, 12}}, {}};
         options.hitMemory = memory;
-        options.kind = TransferKind::Shadowed;
-        const TransferField alone = bakeOrDie(scene, options, placement);
-        options.kind = TransferKind::Interreflected;
+        options.kind = transfer::Kind::Shadowed;
+        const transfer::SimulatedField alone = bakeOrDie(scene, options, placement);
+        options.kind = transfer::Kind::Interreflected;
         options.bounces = bounces;
-        const TransferField plain = bakeOrDie(scene, options, placement);
+        const transfer::SimulatedField plain = bakeOrDie(scene, options, placement);
         options.keepShadowed = true;
-        const TransferField both = bakeOrDie(scene, options, placement);
+        const transfer::SimulatedField both = bakeOrDie(scene, options, placement);
         expectSameNumbers(both, plain);
         for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-          const MeshTransfer& a = alone.meshes[m];
-          const ShadowedTransfer& kept = both.meshes[m].shadowed;
+          const BakedMesh a = meshOf(alone, m);
+          const BakedMesh kept = meshOf(both, m, transfer::Kind::Shadowed);
           EXPECT_EQ(kept.channels, a.channels);
           EXPECT_EQ(kept.vectors, a.vectors);
           EXPECT_EQ(kept.matrixChannels, a.matrixChannels);
           EXPECT_EQ(kept.matrices, a.matrices);
-          EXPECT_TRUE(a.shadowed.empty() && plain.meshes[m].shadowed.empty());
+          EXPECT_TRUE(meshOf(plain, m, transfer::Kind::Shadowed).positions.empty());
         }
-        EXPECT_FALSE(both.meshes[0].shadowed.vectors.empty());
-        EXPECT_FALSE(both.meshes[2].shadowed.matrices.empty());
+        EXPECT_FALSE(meshOf(both, 0, transfer::Kind::Shadowed).vectors.empty());
+        EXPECT_FALSE(meshOf(both, 2, transfer::Kind::Shadowed).matrices.empty());
         // Only what has a colour of its own, or is lit by a painted mirror, needs three channels.
-        EXPECT_EQ(both.meshes[2].shadowed.matrixChannels, isPainted ? 3 : 1);
-        EXPECT_EQ(both.meshes[2].matrixChannels, 3);
+        EXPECT_EQ(meshOf(both, 2, transfer::Kind::Shadowed).matrixChannels, isPainted ? 3 : 1);
+        EXPECT_EQ(meshOf(both, 2).matrixChannels, 3);
       }
 }
 
@@ -135,7 +135,7 @@ TEST(Bake, StopsWhenAPassHasLittleEnergy) {
   BakeOptions options = small();
   options.bounces = 50;
   options.energyThreshold = 1e-4;
-  const TransferField field = bakeOrDie(mixedScene(), options);
+  const transfer::SimulatedField field = bakeOrDie(mixedScene(), options);
   EXPECT_LT(field.bounces, 20);
   EXPECT_LE(field.passEnergy.back(), 1e-4 * field.passEnergy.front());
 }
@@ -144,10 +144,10 @@ TEST(Bake, ColourCostsChannelsOnlyWhereItIsNeeded) {
   scene::Scene scene;
   scene::addTo(scene, scene::icosphere(1, 1), painted(Rgb(0.9f, 0.5f, 0.1f)));
   BakeOptions options = small();
-  options.kind = TransferKind::Shadowed;
-  EXPECT_EQ(bakeOrDie(scene, options).meshes[0].channels, 3);
+  options.kind = transfer::Kind::Shadowed;
+  EXPECT_EQ(meshOf(bakeOrDie(scene, options), 0).channels, 3);
   scene.materials[0].diffuse = Rgb::Constant(0.5f);
-  EXPECT_EQ(bakeOrDie(scene, options).meshes[0].channels, 1);
+  EXPECT_EQ(meshOf(bakeOrDie(scene, options), 0).channels, 1);
 }
 
 TEST(Bake, TexelsOfAPlaneAgreeWithVerticesAtTheirCentres) {
@@ -160,14 +160,14 @@ TEST(Bake, TexelsOfAPlaneAgreeWithVerticesAtTheirCentres) {
     return scene;
   };
   BakeOptions options = small();
-  options.kind = TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   const float inner = 2.0f * (kSide - 1) / kSide;
-  const TransferField vertices =
+  const transfer::SimulatedField vertices =
       bakeOrDie(underBall(scene::gridPlane(inner, inner, kSide - 1, kSide - 1)), options);
-  const TransferField texels =
+  const transfer::SimulatedField texels =
       bakeOrDie(underBall(scene::gridPlane(2, 2, 1, 1)), options, {{{0, kSide, kSide}}, {}});
-  const MeshTransfer &grid = texels.meshes[0], &points = vertices.meshes[0];
-  ASSERT_EQ(grid.layout, Layout::Texels);
+  const BakedMesh grid = meshOf(texels, 0), points = meshOf(vertices, 0);
+  ASSERT_TRUE(grid.onTexels);
   std::size_t compared = 0;
   for (std::size_t t = 0; t < grid.receiverCount(); ++t)
     for (std::size_t v = 0; v < points.receiverCount(); ++v) {
@@ -193,7 +193,7 @@ TEST(Bake, TellsOfReceiversInsideAMesh) {
     }
   EXPECT_TRUE(told);
   // The ball inside is black, and the one outside is as if there were nothing inside it.
-  for (const float value : baked->value.meshes[1].vectors) EXPECT_EQ(value, 0.0f);
+  for (const float value : meshOf(baked->value, 1).vectors) EXPECT_EQ(value, 0.0f);
 }
 
 TEST(Bake, RefusesWhatMakesNoSense) {

@@ -26,7 +26,7 @@ namespace {
 /// k_q Σ_i ĝ_i y_i(R) M_ij, times weight for each channel.
 void addLobe(const Simulation& simulation, std::uint32_t q, const Vec3& arrival, const Rgb& weight,
              const PassRows& previous, Scratch& scratch, double* exit) {
-  const Receivers& receivers = simulation.receivers;
+  const PlacedReceivers& receivers = simulation.receivers;
   const Vec3 reflected = math::reflectAbout(-arrival, receivers.normals[q]);
   scratch.outFloat.resize(simulation.outCount);
   sh::evaluate(simulation.outBands, Vec3(reflected.normalized()),

@@ -18,7 +18,7 @@ namespace {
 
 /// Exit radiance of a receiver under uniform light of radiance 1: only y_00 counts, whose
 /// coefficient is √(4π).
-double underUniformLight(const MeshTransfer& mesh, std::size_t receiver, int channel = 0) {
+double underUniformLight(const BakedMesh& mesh, std::size_t receiver, int channel = 0) {
   return mesh.vectors[(receiver * mesh.channels + channel) * sh::coefficientCount(mesh.bands)] *
          std::sqrt(4.0 * kPi);
 }
@@ -31,18 +31,18 @@ scene::Material diffuse(float albedo) {
 
 TEST(ClosedForm, UnoccludedTransferIsTheCosineLobe) {
   const scene::Scene scene = scene::sceneOf(scene::icosphere(1.0f, 2), diffuse(0.6f));
-  for (const TransferKind kind : {TransferKind::Unshadowed, TransferKind::Shadowed}) {
+  for (const transfer::Kind kind : {transfer::Kind::Unshadowed, transfer::Kind::Shadowed}) {
     BakeOptions options;
     options.kind = kind;
     options.bands = 7;
-    const TransferField field = bakeOrDie(scene, options);
+    const transfer::SimulatedField field = bakeOrDie(scene, options);
     const sh::ZonalMoments cosine = sh::clampedCosine(7);
-    for (std::size_t r = 0; r < field.meshes[0].receiverCount(); ++r) {
+    const BakedMesh mesh = meshOf(field, 0);
+    for (std::size_t r = 0; r < mesh.receiverCount(); ++r) {
       std::vector<double> y(49);
-      sh::evaluate(7, Vec3d(field.meshes[0].normals[r].cast<double>()), y);
+      sh::evaluate(7, Vec3d(mesh.normals[r].cast<double>()), y);
       for (int i = 0; i < 49; ++i)
-        EXPECT_NEAR(field.meshes[0].vectors[r * 49 + i], 0.6 / kPi * cosine[sh::bandOf(i)] * y[i],
-                    1e-6);
+        EXPECT_NEAR(mesh.vectors[r * 49 + i], 0.6 / kPi * cosine[sh::bandOf(i)] * y[i], 1e-6);
     }
   }
 }
@@ -51,10 +51,10 @@ TEST(ClosedForm, AConvexWhiteBodyUnderUniformLightHasRadianceOne) {
   scene::Scene scene;
   scene::addTo(scene, scene::icosphere(2.0f, 3), diffuse(1.0f));
   BakeOptions options;
-  options.kind = TransferKind::Interreflected;
-  const TransferField sphere = bakeOrDie(scene, options);
-  for (std::size_t r = 0; r < sphere.meshes[0].receiverCount(); ++r)
-    EXPECT_NEAR(underUniformLight(sphere.meshes[0], r), 1.0, 1e-6);
+  options.kind = transfer::Kind::Interreflected;
+  const BakedMesh sphere = meshOf(bakeOrDie(scene, options), 0);
+  for (std::size_t r = 0; r < sphere.receiverCount(); ++r)
+    EXPECT_NEAR(underUniformLight(sphere, r), 1.0, 1e-6);
 }
 
 TEST(ClosedForm, SphereAboveAPlaneShadowsAsMuchAsItCovers) {
@@ -63,9 +63,9 @@ TEST(ClosedForm, SphereAboveAPlaneShadowsAsMuchAsItCovers) {
   scene::addTo(scene, scene::gridPlane(8.0f, 8.0f, 8, 8), diffuse(1.0f));
   scene::addTo(scene, scene::translated(scene::icosphere(1.0f, 4), Vec3(0, 2, 0)), diffuse(0.0f));
   BakeOptions options;
-  options.kind = TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   options.directions = 32768;
-  const MeshTransfer plane = bakeOrDie(scene, options).meshes[0];
+  const BakedMesh plane = meshOf(bakeOrDie(scene, options), 0);
   double worst = 0.0;
   for (std::size_t r = 0; r < plane.receiverCount(); ++r) {
     const double distance = (plane.positions[r] - Vec3(0, 2, 0)).cast<double>().norm();
@@ -85,9 +85,9 @@ TEST(ClosedForm, SphereShadowInBands) {
   scene::addTo(scene, scene::gridPlane(0.1f, 0.1f, 2, 2), diffuse(1.0f));
   scene::addTo(scene, scene::translated(scene::icosphere(1.0f, 4), Vec3(0, 2, 0)), diffuse(0.0f));
   BakeOptions options;
-  options.kind = TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   options.directions = 32768;
-  const MeshTransfer plane = bakeOrDie(scene, options).meshes[0];
+  const BakedMesh plane = meshOf(bakeOrDie(scene, options), 0);
   std::size_t centre = 0;
   for (std::size_t r = 0; r < plane.receiverCount(); ++r)
     if (plane.positions[r].norm() < plane.positions[centre].norm()) centre = r;
@@ -113,11 +113,11 @@ TEST(ClosedForm, BowlFillsWithLightByTheGeometricSeries) {
   double before = 0.0;
   for (const int bounces : {0, 1, 2, 6}) {
     BakeOptions options;
-    options.kind = TransferKind::Interreflected;
+    options.kind = transfer::Kind::Interreflected;
     options.bounces = bounces;
     options.directions = 2048;
     options.bands = 2;
-    const MeshTransfer bowl = bakeOrDie(scene, options).meshes[0];
+    const BakedMesh bowl = meshOf(bakeOrDie(scene, options), 0);
     double mean = 0.0, low = 1e9, high = -1e9;
     std::size_t counted = 0;
     for (std::size_t r = 0; r < bowl.receiverCount(); ++r) {
@@ -143,9 +143,9 @@ TEST(ClosedForm, BowlFillsWithLightByTheGeometricSeries) {
 TEST(ClosedForm, ClosedRoomIsBlackToTheSkyAndNoLightLeaksIn) {
   const scene::Scene scene = scene::sceneOf(scene::room(Vec3(2, 1, 3), 8), diffuse(0.9f));
   BakeOptions options;
-  options.kind = TransferKind::Interreflected;
+  options.kind = transfer::Kind::Interreflected;
   options.bounces = 3;
-  const MeshTransfer room = bakeOrDie(scene, options).meshes[0];
+  const BakedMesh room = meshOf(bakeOrDie(scene, options), 0);
   for (const float value : room.vectors) EXPECT_EQ(value, 0.0f);
 }
 
@@ -161,7 +161,7 @@ TEST(ClosedForm, GlossyShadowedMatrixIsTheSumOverDirectionsEntryForEntry) {
   const auto rays = trace::RayScene::build(scene);
   ASSERT_TRUE(rays);
   BakeOptions options;
-  options.kind = TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   options.bands = 3;
   options.glossyBands = 5;
   options.directions = 2048;
@@ -169,7 +169,7 @@ TEST(ClosedForm, GlossyShadowedMatrixIsTheSumOverDirectionsEntryForEntry) {
   ASSERT_TRUE(receivers);
   const auto field = bake(scene, *rays, *receivers, options, {});
   ASSERT_TRUE(field);
-  const MeshTransfer& plane = field->value.meshes[0];
+  const BakedMesh plane = meshOf(field->value, 0);
   ASSERT_EQ(plane.outBands, 5);
   ASSERT_EQ(plane.inBands, 3);
   // The very directions of the bake.
@@ -204,9 +204,9 @@ TEST(ClosedForm, GlossyMatrixOfAnOpenReceiverIsTheHemispheresProductMatrix) {
   scene::addTo(scene, scene::rotated(scene::gridPlane(1, 1, 1, 1), Vec3(1, 0, 0), float(kPi / 2)),
                glossy);  // faces +z
   BakeOptions options;
-  options.kind = TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   options.bands = options.glossyBands = 3;
-  const MeshTransfer plane = bakeOrDie(scene, options).meshes[0];
+  const BakedMesh plane = meshOf(bakeOrDie(scene, options), 0);
   ASSERT_GT(plane.normals[0].z(), 0.99f);
   const auto entry = [&](int i, int j) { return plane.matrices[i * 9 + j]; };
   EXPECT_NEAR(entry(0, 0), 0.5, 1e-6);
@@ -221,9 +221,9 @@ TEST(ClosedForm, UnshadowedGlossyMatrixIsTheIdentity) {
   glossy.glossy = Rgb::Ones();
   scene::addTo(scene, scene::icosphere(1, 0), glossy);
   BakeOptions options;
-  options.kind = TransferKind::Unshadowed;
+  options.kind = transfer::Kind::Unshadowed;
   options.bands = 3, options.glossyBands = 4;
-  const MeshTransfer body = bakeOrDie(scene, options).meshes[0];
+  const BakedMesh body = meshOf(bakeOrDie(scene, options), 0);
   for (int i = 0; i < 16; ++i)
     for (int j = 0; j < 9; ++j) EXPECT_EQ(body.matrices[i * 9 + j], i == j ? 1.0f : 0.0f);
 }
@@ -241,9 +241,9 @@ TEST(ClosedForm, MirrorWallDoublesTheSky) {
                    Vec3(1, 0, 0)),
                mirror);  // faces −x
   BakeOptions options;
-  options.kind = TransferKind::Shadowed;
+  options.kind = transfer::Kind::Shadowed;
   options.directions = 16384;
-  const MeshTransfer plane = bakeOrDie(scene, options).meshes[0];
+  const BakedMesh plane = meshOf(bakeOrDie(scene, options), 0);
   for (std::size_t r = 0; r < plane.receiverCount(); ++r) {
     // Mirrored light from below the horizon cannot reach an upward receiver: reflection in a
     // vertical wall keeps the height of a direction, so nothing is lost.
@@ -270,19 +270,20 @@ TEST(ClosedForm, GlossyBounceLooksWhereTheMirroredRayGoes) {
   scene::addTo(scene, wall(-0.7f, float(-kPi / 2)), diffuse(1.0f));  // faces +x
   scene::addTo(scene, wall(0.7f, float(kPi / 2)), diffuse(1.0f));    // faces −x
   BakeOptions options;
-  options.kind = TransferKind::Interreflected;
+  options.kind = transfer::Kind::Interreflected;
   options.bounces = 1;
   options.bands = options.glossyBands = 9;
-  const TransferField full = bakeOrDie(scene, options);
+  const transfer::SimulatedField full = bakeOrDie(scene, options);
   options.bounces = 0;
-  const TransferField direct = bakeOrDie(scene, options);
-  ASSERT_GT(full.meshes[1].normals[0].x(), 0.99f);
+  const transfer::SimulatedField direct = bakeOrDie(scene, options);
+  ASSERT_GT(meshOf(full, 1).normals[0].x(), 0.99f);
   std::vector<double> light(81);
   sh::turnTo(sh::cap(9, 0.3), Vec3d(1, 1, 0).normalized(), std::span<double>(light));
   const auto bounced = [&](int mesh) {
+    const BakedMesh after = meshOf(full, std::size_t(mesh)),
+                    before = meshOf(direct, std::size_t(mesh));
     double sum = 0.0;
-    for (int i = 0; i < 81; ++i)
-      sum += light[i] * (full.meshes[mesh].vectors[i] - direct.meshes[mesh].vectors[i]);
+    for (int i = 0; i < 81; ++i) sum += light[i] * (after.vectors[i] - before.vectors[i]);
     return sum;
   };
   EXPECT_GT(bounced(1), 0.01);

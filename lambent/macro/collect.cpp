@@ -4,7 +4,9 @@
 
 namespace lambent::macro {
 
-using transport::Albedo;
+using transfer::Floats;
+using transfer::Kind;
+using transfer::SharedReceivers;
 
 namespace {
 
@@ -14,28 +16,42 @@ bool isGrey(const Rgb& colour) {
 
 /// The receivers whose transfer a mesh's stored places hold: texels that are not covered copy
 /// another's.
-std::vector<std::uint32_t> sourcesOf(const Receivers::PerMesh& place) {
+std::vector<std::uint32_t> sourcesOf(const PlacedReceivers::PerMesh& place) {
   if (place.layout != Layout::Vertices) return place.receiverOfTexel;
   std::vector<std::uint32_t> sources(place.count);
   for (std::uint32_t k = 0; k < place.count; ++k) sources[k] = place.first + k;
   return sources;
 }
 
-LocalTransfer localOf(const Simulation& s, const Receivers::PerMesh& place, const Totals& totals,
-                      const Totals* shadowed) {
-  LocalTransfer local;
-  local.tangents = place.local->tangents;
-  local.bands = s.inBands;
-  if (s.options.kind == TransferKind::Unshadowed || place.count == 0) return local;
-  const std::size_t first = s.matrixIndex[place.first] * s.matrixStride();
-  if (s.options.kind == TransferKind::Shadowed) {
-    local.shadowed = inTangentFrames(s, place, totals.matrices + first, 1);
-    return local;
+SharedReceivers receiversOf(const PlacedReceivers& all, const PlacedReceivers::PerMesh& place,
+                            const std::vector<std::uint32_t>& sources) {
+  transfer::Receivers receivers;
+  for (const std::uint32_t r : sources) {
+    receivers.positions.push_back(all.positions[r]);
+    receivers.normals.push_back(all.normals[r]);
   }
-  local.channels = s.channels;
-  local.interreflected = inTangentFrames(s, place, totals.matrices + first, local.channels);
-  if (shadowed) local.shadowed = inTangentFrames(s, place, shadowed->matrices + first, 1);
-  return local;
+  if (place.layout == Layout::Texels)
+    receivers.where = transfer::AtTexels{place.width, place.height, place.covered};
+  return std::make_shared<const transfer::Receivers>(std::move(receivers));
+}
+
+transfer::BiScale<Floats> biScaleOf(const Simulation& s, const PlacedReceivers::PerMesh& place,
+                                    SharedReceivers receivers, const Totals& totals,
+                                    const Totals* shadowed) {
+  transfer::BiScale<Floats> biScale;
+  biScale.receivers = std::move(receivers);
+  biScale.tangents = place.local->tangents;
+  biScale.bands = s.inBands;
+  if (s.options.kind == Kind::Unshadowed || place.count == 0) return biScale;
+  const std::size_t first = s.matrixIndex[place.first] * s.matrixStride();
+  const auto set = [&](Kind kind, const Totals& from, int channels) {
+    biScale.matrices.set(kind, {s.inBands, s.inBands, channels,
+                                inTangentFrames(s, place, from.matrices + first, channels)});
+  };
+  const bool bounces = s.options.kind == Kind::Interreflected;
+  set(s.options.kind, totals, bounces ? s.channels : 1);
+  if (shadowed) set(Kind::Shadowed, *shadowed, 1);
+  return biScale;
 }
 
 /// ρ/π E of every source, whose accumulators tell the first `told` channels apart:
@@ -75,68 +91,55 @@ std::vector<float> matricesOf(const Simulation& s, const std::vector<std::uint32
 
 }  // namespace
 
-int channelsFor(const scene::Scene& scene, const Receivers& receivers, TransferKind kind) {
-  if (kind == TransferKind::Unshadowed) return 1;
+int channelsFor(const scene::Scene& scene, const PlacedReceivers& receivers, Kind kind) {
+  if (kind == Kind::Unshadowed) return 1;
   for (const scene::Mesh& mesh : scene.meshes) {
     const scene::Material& material = scene.materials[mesh.material];
     if (!material.isMirror()) continue;
     const bool painted = material.baseColorTexture >= 0 || !mesh.colors.empty();
     if (painted || !isGrey(material.mirror)) return 3;
   }
-  if (kind != TransferKind::Interreflected) return 1;
+  if (kind != Kind::Interreflected) return 1;
   const auto allGrey = [](const std::vector<Rgb>& colours) {
     return std::all_of(colours.begin(), colours.end(), isGrey);
   };
   return allGrey(receivers.diffuse) && allGrey(receivers.glossy) ? 1 : 3;
 }
 
-MeshTransfer transferOf(const Simulation& s, std::uint32_t meshIndex, const Totals& totals,
-                        const Totals* shadowed) {
+transfer::MeshTransfer<Floats> transferOf(const Simulation& s, std::uint32_t meshIndex,
+                                          const Totals& totals, const Totals* shadowed) {
   const scene::Mesh& mesh = s.scene.meshes[meshIndex];
   const scene::Material& material = s.scene.materials[mesh.material];
-  const Receivers::PerMesh& place = s.receivers.meshes[meshIndex];
-  MeshTransfer out;
-  out.layout = place.layout;
-  if (place.layout == Layout::None) return out;
-  out.width = place.width, out.height = place.height;
-  out.covered = place.covered;
+  const PlacedReceivers::PerMesh& place = s.receivers.meshes[meshIndex];
+  if (place.layout == Layout::None) return transfer::NoTransfer{};
   const std::vector<std::uint32_t> sources = sourcesOf(place);
-  for (const std::uint32_t r : sources) {
-    out.positions.push_back(s.receivers.positions[r]);
-    out.normals.push_back(s.receivers.normals[r]);
-  }
-  if (place.local) {
-    out.local = localOf(s, place, totals, shadowed);
-    return out;
-  }
-  const int shadowedChannels = channelsFor(s.scene, s.receivers, TransferKind::Shadowed);
-  out.albedo = material.baseColorTexture >= 0 ? Albedo::BaseColor : Albedo::Included;
-  if (place.isDiffuse) {
-    std::vector<Rgb> rho(sources.size(), material.diffuse);
-    if (out.albedo == Albedo::Included)
-      for (std::size_t k = 0; k < sources.size(); ++k) rho[k] = s.receivers.diffuse[sources[k]];
-    const bool grey = std::all_of(rho.begin(), rho.end(), isGrey);
-    out.bands = s.inBands;
-    out.channels = s.channels == 1 && grey ? 1 : 3;
-    out.vectors = vectorsOf(s, sources, rho, totals, s.channels, out.channels);
-    if (shadowed) {
-      out.shadowed.channels = shadowedChannels == 1 && grey ? 1 : 3;
-      out.shadowed.vectors =
-          vectorsOf(s, sources, rho, *shadowed, shadowedChannels, out.shadowed.channels);
-    }
-  }
-  if (place.isGlossy) {
-    out.inBands = s.inBands, out.outBands = s.outBands;
-    out.matrixChannels = s.channels;
-    out.glossy = material.glossy;
-    out.lobeExponent = material.lobeExponent;
-    out.matrices = matricesOf(s, sources, totals, out.matrixChannels);
-    if (shadowed) {
-      out.shadowed.matrixChannels = shadowedChannels;
-      out.shadowed.matrices = matricesOf(s, sources, *shadowed, shadowedChannels);
-    }
-  }
-  return out;
+  SharedReceivers receivers = receiversOf(s.receivers, place, sources);
+  if (place.local) return biScaleOf(s, place, std::move(receivers), totals, shadowed);
+
+  const transfer::Albedo albedo =
+      material.baseColorTexture >= 0 ? transfer::Albedo::BaseColor : transfer::Albedo::Included;
+  std::vector<Rgb> rho(sources.size(), material.diffuse);
+  if (albedo == transfer::Albedo::Included)
+    for (std::size_t k = 0; k < sources.size(); ++k) rho[k] = s.receivers.diffuse[sources[k]];
+  const bool grey = std::all_of(rho.begin(), rho.end(), isGrey);
+  /// `told`: the channels that the totals tell apart.
+  const auto responseOf = [&](const Totals& from, int told) {
+    transfer::SurfaceResponse<Floats> response;
+    const int channels = told == 1 && grey ? 1 : 3;
+    if (place.isDiffuse)
+      response.diffuse = {albedo,
+                          {s.inBands, channels, vectorsOf(s, sources, rho, from, told, channels)}};
+    if (place.isGlossy)
+      response.glossy = {{material.glossy, material.lobeExponent},
+                         {s.outBands, s.inBands, told, matricesOf(s, sources, from, told)}};
+    return response;
+  };
+  transfer::Surface<Floats> surface{std::move(receivers), {}};
+  surface.responses.set(s.options.kind, responseOf(totals, s.channels));
+  if (shadowed)
+    surface.responses.set(Kind::Shadowed,
+                          responseOf(*shadowed, channelsFor(s.scene, s.receivers, Kind::Shadowed)));
+  return surface;
 }
 
 }  // namespace lambent::macro

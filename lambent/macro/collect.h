@@ -8,7 +8,7 @@
 namespace lambent::macro {
 
 /// One channel serves for R, G and B as long as nothing on the way of the light has a colour.
-int channelsFor(const scene::Scene& scene, const Receivers& receivers, TransferKind kind);
+int channelsFor(const scene::Scene& scene, const PlacedReceivers& receivers, transfer::Kind kind);
 
 /// Accumulators of all receivers, shaped as simulation.h says.
 struct Totals {
@@ -18,7 +18,8 @@ struct Totals {
 
 /// Everything that a bake says of one mesh. `shadowed`: the totals after pass 0, where they are to
 /// be kept beside.
-MeshTransfer transferOf(const Simulation& simulation, std::uint32_t mesh, const Totals& totals,
-                        const Totals* shadowed);
+transfer::MeshTransfer<transfer::Floats> transferOf(const Simulation& simulation,
+                                                    std::uint32_t mesh, const Totals& totals,
+                                                    const Totals* shadowed);
 
 }  // namespace lambent::macro

@@ -58,7 +58,7 @@ double write(const Simulation& s, std::uint32_t receiver, const Gathered& gather
 
 Result<DirectPass> directPass(const Simulation& s, work::ChunkRange range,
                               const work::Runner& runner, const RowsToWrite& rows) {
-  const bool unshadowed = s.options.kind == TransferKind::Unshadowed;
+  const bool unshadowed = s.options.kind == transfer::Kind::Unshadowed;
   const bool bouncing = s.isBouncing();
   const bool closest = bouncing || hasMirrors(s.scene);
   const work::Stage stage{unshadowed ? "unshadowed transfer"

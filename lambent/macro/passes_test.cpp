@@ -18,7 +18,7 @@ namespace {
 struct Bed {
   scene::Scene scene = mixedScene();
   trace::RayScene rays;
-  Receivers receivers;
+  PlacedReceivers receivers;
   trace::DirectionSet directions;
   Simulation simulation;
 
@@ -131,7 +131,7 @@ TEST(Passes, WriteTheRowsOfTheirOwnReceiversAlone) {
 }
 
 TEST(Passes, ThatAreAloneNeedNoExits) {
-  for (const TransferKind kind : {TransferKind::Unshadowed, TransferKind::Shadowed}) {
+  for (const transfer::Kind kind : {transfer::Kind::Unshadowed, transfer::Kind::Shadowed}) {
     BakeOptions options = small();
     options.kind = kind;
     const Bed bed(options);

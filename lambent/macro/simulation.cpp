@@ -3,7 +3,7 @@
 namespace lambent::macro {
 
 Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
-                       const Receivers& receivers_, const trace::DirectionSet& directions_,
+                       const PlacedReceivers& receivers_, const trace::DirectionSet& directions_,
                        const BakeOptions& options_, int channels_)
     : scene(scene_),
       rays(rays_),
@@ -23,11 +23,11 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
   matrixIndex.assign(receivers.size(), kNoMatrix);
   diffuseReceiver_.assign(receivers.size(), 0);
   lobeReceiver_.assign(receivers.size(), 0);
-  for (const Receivers::PerMesh& mesh : receivers.meshes)
+  for (const PlacedReceivers::PerMesh& mesh : receivers.meshes)
     for (std::uint32_t r = mesh.first; r < mesh.first + mesh.count; ++r) {
       diffuseReceiver_[r] = mesh.isDiffuse;
       lobeReceiver_[r] = mesh.isGlossy;
-      const bool local = mesh.local && options.kind != TransferKind::Unshadowed;
+      const bool local = mesh.local && options.kind != transfer::Kind::Unshadowed;
       if (mesh.isGlossy || local) matrixIndex[r] = static_cast<std::uint32_t>(matrixCount++);
     }
   if (matrixCount == 0) {

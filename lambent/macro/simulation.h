@@ -4,8 +4,7 @@
 //  - E, "incident vector" of a diffuse receiver: [c][n²], the transfer vector without ρ/π;
 //    exit radiance is ρ/π E · L.
 //  - M, matrix of a receiver that has one (a glossy surface, or one that carries meso-structure):
-//  N²
-//    rows of [c][n²] each, so that one row is shaped like an E.
+//    N² rows of [c][n²] each, so that one row is shaped like an E.
 // Both row lengths are padded to rowStride floats.
 #pragma once
 
@@ -22,24 +21,22 @@
 
 namespace lambent::macro {
 
+using transfer::Kind;
+using transfer::SimulatedField;
 using transport::addOuterProducts;
 using transport::addRows;
 using transport::DirectionTable;
 using transport::HitCounts;
 using transport::Layout;
-using transport::LocalTransfer;
-using transport::MeshTransfer;
 using transport::MirroredHit;
 using transport::MirrorEscape;
+using transport::PlacedReceivers;
 using transport::ReceiverHits;
-using transport::Receivers;
-using transport::TransferField;
-using transport::TransferKind;
 
 struct Simulation {
   const scene::Scene& scene;
   const trace::RayScene& rays;
-  const Receivers& receivers;
+  const PlacedReceivers& receivers;
   const trace::DirectionSet& directions;
   BakeOptions options;
   std::vector<std::uint32_t> order;  ///< receivers, neighbours after each other: caches stay warm
@@ -60,14 +57,15 @@ struct Simulation {
 
   static constexpr std::uint32_t kNoMatrix = 0xffffffffu;
 
-  Simulation(const scene::Scene& scene, const trace::RayScene& rays, const Receivers& receivers,
-             const trace::DirectionSet& directions, const BakeOptions& options, int channels);
+  Simulation(const scene::Scene& scene, const trace::RayScene& rays,
+             const PlacedReceivers& receivers, const trace::DirectionSet& directions,
+             const BakeOptions& options, int channels);
 
   /// Of receivers in the sequence of `order`: what a thread takes at a time.
   work::Chunks chunks() const { return work::Chunks(order.size(), 64); }
   /// Whether passes follow pass 0.
   bool isBouncing() const {
-    return options.kind == TransferKind::Interreflected && options.bounces > 0;
+    return options.kind == transfer::Kind::Interreflected && options.bounces > 0;
   }
   std::size_t matrixStride() const { return outCount * rowStride; }
   bool hasMatrix(std::uint32_t receiver) const { return matrixIndex[receiver] != kNoMatrix; }
@@ -112,8 +110,9 @@ void gatherDirect(const Simulation& simulation, std::uint32_t receiver, Gathered
 /// The matrices of a bi-scale mesh with their rows turned into the receivers' tangent frames:
 /// [receiver][channel][N²][n²] for the first `channels` channels of `matrices`, which holds one
 /// matrix of matrixStride() floats for each of the mesh's receivers.
-std::vector<float> inTangentFrames(const Simulation& simulation, const Receivers::PerMesh& place,
-                                   const float* matrices, int channels);
+std::vector<float> inTangentFrames(const Simulation& simulation,
+                                   const PlacedReceivers::PerMesh& place, const float* matrices,
+                                   int channels);
 
 /// What a pass left at all receivers, for the next one.
 struct PassRows {

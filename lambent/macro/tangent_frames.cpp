@@ -25,8 +25,9 @@ Mat3d tangentFromWorld(const Vec3& tangent, const Vec3& normal) {
 
 }  // namespace
 
-std::vector<float> inTangentFrames(const Simulation& simulation, const Receivers::PerMesh& place,
-                                   const float* matrices, int channels) {
+std::vector<float> inTangentFrames(const Simulation& simulation,
+                                   const PlacedReceivers::PerMesh& place, const float* matrices,
+                                   int channels) {
   const std::size_t rows = simulation.outCount, columns = simulation.inCount;
   std::vector<float> turned(std::size_t(place.count) * channels * rows * columns);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, place.count, 64), [&](const auto& range) {

@@ -8,14 +8,11 @@
 
 namespace lambent::macro {
 
+using transfer::Kind;
+using transfer::SimulatedField;
 using transport::Layout;
 using transport::LocalFrames;
-using transport::LocalTransfer;
-using transport::MeshTransfer;
 using transport::Placement;
-using transport::ShadowedTransfer;
-using transport::TransferField;
-using transport::TransferKind;
 
 inline scene::Material painted(const Rgb& diffuse, const Rgb& glossy = Rgb::Zero()) {
   scene::Material material;
@@ -40,7 +37,7 @@ inline scene::Scene mixedScene() {
 
 inline BakeOptions small() {
   BakeOptions options;
-  options.kind = TransferKind::Interreflected;
+  options.kind = transfer::Kind::Interreflected;
   options.directions = 512;
   options.bands = 3;
   options.bounces = 2;
@@ -48,9 +45,9 @@ inline BakeOptions small() {
 }
 
 /// A bake of receivers that stand where `placement` says.
-inline Result<WithFindings<TransferField>> bakeScene(const scene::Scene& scene,
-                                                     const BakeOptions& options,
-                                                     const Placement& placement = {}) {
+inline Result<WithFindings<transfer::SimulatedField>> bakeScene(const scene::Scene& scene,
+                                                                const BakeOptions& options,
+                                                                const Placement& placement = {}) {
   const auto rays = trace::RayScene::build(scene);
   EXPECT_TRUE(rays);
   const auto receivers = transport::placeReceivers(scene, placement, rays->offset());
@@ -58,11 +55,60 @@ inline Result<WithFindings<TransferField>> bakeScene(const scene::Scene& scene,
   return bake(scene, *rays, *receivers, options, {});
 }
 
-inline TransferField bakeOrDie(const scene::Scene& scene, const BakeOptions& options,
-                               const Placement& placement = {}) {
+inline transfer::SimulatedField bakeOrDie(const scene::Scene& scene, const BakeOptions& options,
+                                          const Placement& placement = {}) {
   auto baked = bakeScene(scene, options, placement);
   EXPECT_TRUE(baked) << baked.error().message;
   return std::move(baked->value);
+}
+
+/// What a bake says of a bare surface, with the parts that a test looks at by their names.
+struct BakedMesh {
+  bool onTexels = false;
+  std::vector<Vec3> positions, normals;
+  int bands = 0, channels = 0;
+  transfer::Floats vectors;
+  int outBands = 0, inBands = 0, matrixChannels = 0;
+  transfer::Floats matrices;
+
+  std::size_t receiverCount() const { return positions.size(); }
+};
+
+/// Empty for a mirror and for a kind that is not held.
+inline BakedMesh meshOf(const transfer::SimulatedField& field, std::size_t mesh,
+                        transfer::Kind kind) {
+  BakedMesh out;
+  const auto* surface = std::get_if<transfer::Surface<transfer::Floats>>(&field.meshes[mesh]);
+  const auto* response = surface ? surface->responses.find(kind) : nullptr;
+  if (!response) return out;
+  out.onTexels = surface->receivers->texels() != nullptr;
+  out.positions = surface->receivers->positions;
+  out.normals = surface->receivers->normals;
+  if (response->diffuse) {
+    out.bands = response->diffuse->vectors.bands;
+    out.channels = response->diffuse->vectors.channels;
+    out.vectors = response->diffuse->vectors.numbers;
+  }
+  if (response->glossy) {
+    out.outBands = response->glossy->matrices.outBands;
+    out.inBands = response->glossy->matrices.inBands;
+    out.matrixChannels = response->glossy->matrices.channels;
+    out.matrices = response->glossy->matrices.numbers;
+  }
+  return out;
+}
+inline BakedMesh meshOf(const transfer::SimulatedField& field, std::size_t mesh) {
+  return meshOf(field, mesh, field.kind);
+}
+
+/// What it says of a surface with meso-structure.
+inline const transfer::BiScale<transfer::Floats>& localOf(const transfer::SimulatedField& field,
+                                                          std::size_t mesh) {
+  return std::get<transfer::BiScale<transfer::Floats>>(field.meshes[mesh]);
+}
+inline const transfer::Floats& matricesOf(const transfer::SimulatedField& field, std::size_t mesh,
+                                          transfer::Kind kind) {
+  return localOf(field, mesh).matrices.find(kind)->numbers;
 }
 
 }  // namespace lambent::macro

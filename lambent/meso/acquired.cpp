@@ -4,7 +4,7 @@
 //   a constant, scattered data at distinct points always have one interpolant.
 //
 // Where we deviate, and why. The paper fills CURET's sparse samples in by recovering a height field
-// and re-rendering it (Liu 2001). Radial functions need no model of the surface, are exact at the
+// and re-rendering it. Radial functions need no model of the surface, are exact at the
 // samples, and, being linear, make every coefficient of the RTT one fixed combination of the
 // pictures, the same for all positions. What is interpolated is radiance divided by the cosine of
 // the light's polar angle: a diffuse surface is then constant, and light at the horizon gives
@@ -192,9 +192,9 @@ void warnOfSeam(const image::Image& picture, const std::filesystem::path& file,
 
 }  // namespace
 
-Result<WithFindings<RadianceTransferTexture>> acquireRtt(const std::filesystem::path& folderOrTable,
-                                                         const AcquiredOptions& options,
-                                                         const Progress& progress) {
+Result<WithFindings<transfer::SimulatedRtt>> acquireRtt(const std::filesystem::path& folderOrTable,
+                                                        const AcquiredOptions& options,
+                                                        const Progress& progress) {
   if (Status sane = check(options); !sane) return sane.error();
   const Result<std::filesystem::path> table = findBtfTable(folderOrTable);
   if (!table) return table.error();
@@ -203,8 +203,8 @@ Result<WithFindings<RadianceTransferTexture>> acquireRtt(const std::filesystem::
   const std::vector<BtfSample>& samples = *read;
   if (Status sound = checkSamples(samples, *table); !sound) return sound.error();
 
-  WithFindings<RadianceTransferTexture> result;
-  RadianceTransferTexture& rtt = result.value;
+  WithFindings<transfer::SimulatedRtt> result;
+  transfer::SimulatedRtt& rtt = result.value;
   Findings& findings = result.findings;
   rtt.name = std::filesystem::absolute(*table).parent_path().filename().string();
   rtt.width = options.width, rtt.height = options.height;

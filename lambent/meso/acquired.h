@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "lambent/meso/btf_table.h"
-#include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::meso {
 
@@ -55,8 +55,8 @@ struct AcquiredOptions {
 /// BadInput: tables as readBtfTable says, pictures that are missing, unreadable, of another size
 /// than the first, or not finite; fewer than 8 samples, or more than 8192; two samples of one view
 /// and light. A warning "sparse-lights" or "sparse-views" names the widest gap above 40 degrees.
-Result<WithFindings<RadianceTransferTexture>> acquireRtt(const std::filesystem::path& folderOrTable,
-                                                         const AcquiredOptions& options,
-                                                         const Progress& progress);
+Result<WithFindings<transfer::SimulatedRtt>> acquireRtt(const std::filesystem::path& folderOrTable,
+                                                        const AcquiredOptions& options,
+                                                        const Progress& progress);
 
 }  // namespace lambent::meso

@@ -101,7 +101,7 @@ TEST_F(Acquired, PicturesOfADiffuseSurfaceAreItsCosineLobe) {
   options.polarLights = 32, options.azimuthLights = 32;
   const auto acquired = acquireRtt(folder_, options, {});
   ASSERT_TRUE(acquired) << acquired.error().message;
-  const RadianceTransferTexture& rtt = acquired->value;
+  const transfer::SimulatedRtt& rtt = acquired->value;
   const sh::ZonalMoments cosine = sh::clampedCosine(5);
   for (int i = 0; i < 25; ++i) {
     const int l = sh::bandOf(i);

@@ -117,7 +117,7 @@ class Builder {
       for (int x = 0; x < options.views; ++x) views_.push_back(viewDirection(options.views, x, y));
   }
 
-  Status run(const work::Runner& runner, RadianceTransferTexture& rtt, RttCost& cost,
+  Status run(const work::Runner& runner, transfer::SimulatedRtt& rtt, RttCost& cost,
              Findings& findings);
 
  private:
@@ -143,7 +143,7 @@ class Builder {
   Vec2 size_;
 };
 
-Status Builder::run(const work::Runner& runner, RadianceTransferTexture& rtt, RttCost& cost,
+Status Builder::run(const work::Runner& runner, transfer::SimulatedRtt& rtt, RttCost& cost,
                     Findings& findings) {
   size_ = rtt.size;
   const Lattice facetLattice(options_.directions, math::hashCombine(options_.seed, 0),
@@ -327,9 +327,8 @@ Vec3 viewDirection(int views, int viewX, int viewY) {
   return math::hemisphereFromSquare(Vec2((viewX + 0.5f) / views, (viewY + 0.5f) / views));
 }
 
-Result<WithFindings<RadianceTransferTexture>> buildRtt(const Patch& patch,
-                                                       const RttOptions& options,
-                                                       const Progress& progress, RttCost* cost) {
+Result<WithFindings<transfer::SimulatedRtt>> buildRtt(const Patch& patch, const RttOptions& options,
+                                                      const Progress& progress, RttCost* cost) {
   if (Status sane = check(options); !sane) return sane.error();
   Result<Findings> sound = check(patch);
   if (!sound) return sound.error();
@@ -347,7 +346,7 @@ Result<WithFindings<RadianceTransferTexture>> buildRtt(const Patch& patch,
   const Result<PeriodicScene> scene = PeriodicScene::build(patch, options.blockTriangles);
   if (!scene) return scene.error();
 
-  RadianceTransferTexture rtt;
+  transfer::SimulatedRtt rtt;
   rtt.name = patch.name;
   rtt.width = options.width, rtt.height = options.height;
   rtt.views = options.views, rtt.bands = options.bands;
@@ -362,7 +361,7 @@ Result<WithFindings<RadianceTransferTexture>> buildRtt(const Patch& patch,
   RttCost ignored;
   if (Status done = builder.run(runner, rtt, cost ? *cost : ignored, findings); !done)
     return done.error();
-  return WithFindings<RadianceTransferTexture>{std::move(rtt), std::move(findings)};
+  return WithFindings<transfer::SimulatedRtt>{std::move(rtt), std::move(findings)};
 }
 
 }  // namespace lambent::meso

@@ -1,13 +1,13 @@
-// Patch → radiance transfer texture (Sloan 2003 §4.2).
+// Patch → radiance transfer texture (sloan2003biscale §4.2).
 #pragma once
 
 #include <cstdint>
 
 #include "lambent/meso/patch.h"
-#include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::meso {
 
@@ -51,10 +51,9 @@ struct RttCost {
 ///
 /// Errors: BadUsage for options out of range, BadInput as check(patch) and PeriodicScene::build
 /// say, Cancelled. `cost` may be null.
-Result<WithFindings<RadianceTransferTexture>> buildRtt(const Patch& patch,
-                                                       const RttOptions& options,
-                                                       const Progress& progress,
-                                                       RttCost* cost = nullptr);
+Result<WithFindings<transfer::SimulatedRtt>> buildRtt(const Patch& patch, const RttOptions& options,
+                                                      const Progress& progress,
+                                                      RttCost* cost = nullptr);
 
 /// The direction of a view: where the middle of its cell goes on the hemisphere.
 Vec3 viewDirection(int views, int viewX, int viewY);

@@ -15,7 +15,7 @@
 namespace lambent::meso {
 namespace {
 
-double relativeError(const RadianceTransferTexture& a, const RadianceTransferTexture& b) {
+double relativeError(const transfer::SimulatedRtt& a, const transfer::SimulatedRtt& b) {
   double difference = 0.0, scale = 0.0;
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     difference += std::pow(double(a.values[i]) - b.values[i], 2);
@@ -34,9 +34,9 @@ Patch coarseWeave(const Rgb& albedo) {
 TEST(BuildRtt, APatchMovedByHalfAPeriodGivesTheRttMovedByHalf) {
   RttOptions options = smallOptions(8, 3);
   options.directions = 256;
-  const RadianceTransferTexture a = build(bumpyPatch(Rgb::Constant(0.7f)), options);
-  const RadianceTransferTexture b = build(bumpyPatch(Rgb::Constant(0.7f), 24, 24), options);
-  RadianceTransferTexture moved = b;
+  const transfer::SimulatedRtt a = build(bumpyPatch(Rgb::Constant(0.7f)), options);
+  const transfer::SimulatedRtt b = build(bumpyPatch(Rgb::Constant(0.7f), 24, 24), options);
+  transfer::SimulatedRtt moved = b;
   for (int i = 0; i < 25; ++i)
     for (int p = 0; p < 64; ++p)
       for (int v = 0; v < 9; ++v)
@@ -65,7 +65,7 @@ TEST(BuildRtt, TheSizeOfTheBlockDoesNotMatter) {
   options.directions = 256;
   const Patch patch = slotPatch(0.06f, 0.03f, 0.8f, 0.5f);
   options.blockTriangles = 0;
-  const RadianceTransferTexture small = build(patch, options);
+  const transfer::SimulatedRtt small = build(patch, options);
   options.blockTriangles = 100000;
   EXPECT_LT(relativeError(small, build(patch, options)), 1e-4);
 }
@@ -94,7 +94,7 @@ TEST(BuildRtt, TheSameBytesAtAnyNumberOfThreads) {
   options.directions = 128;
   options.threads = 1;
   const Patch patch = coarseWeave(Rgb(0.6f, 0.4f, 0.2f));
-  const RadianceTransferTexture one = build(patch, options);
+  const transfer::SimulatedRtt one = build(patch, options);
   options.threads = 4;
   EXPECT_EQ(one.values, build(patch, options).values);
 }
@@ -104,11 +104,11 @@ TEST(BuildRtt, BothMethodsAgreeOnStucco) {
   stuccoOptions.resolution = 64;
   const Patch patch = stucco(stuccoOptions);
   RttOptions options = smallOptions(10, 2);
-  const RadianceTransferTexture gathered = build(patch, options);
+  const transfer::SimulatedRtt gathered = build(patch, options);
   options.method = RttMethod::Images;
-  const RadianceTransferTexture coarse = build(patch, options);
+  const transfer::SimulatedRtt coarse = build(patch, options);
   options.polarLights = 24, options.azimuthLights = 48;
-  const RadianceTransferTexture fine = build(patch, options);
+  const transfer::SimulatedRtt fine = build(patch, options);
   // 128 lights leave the error of their quadrature; with nine times as many it falls.
   EXPECT_LT(relativeError(coarse, gathered), 0.03);
   EXPECT_LT(relativeError(fine, gathered), 0.015);
@@ -118,7 +118,7 @@ TEST(BuildRtt, NoPlaceReflectsMoreThanItGets) {
   for (const RttMethod method : {RttMethod::Gather, RttMethod::Images}) {
     RttOptions options = smallOptions(8, 4);
     options.method = method;
-    const RadianceTransferTexture rtt = build(coarseWeave(Rgb::Ones()), options);
+    const transfer::SimulatedRtt rtt = build(coarseWeave(Rgb::Ones()), options);
     // 128 lights sum the cosine of a tilted surface to a few percent only.
     const double most = method == RttMethod::Gather ? 1.005 : 1.05;
     for (std::size_t k = 0; k < rtt.planeSize(); ++k) {
@@ -135,7 +135,7 @@ TEST(BuildRtt, ObliqueViewsSeeTheSidesThatFaceThem) {
   addQuad(patch, {0, 0, 0}, {0.05f, 0, 0.03f}, {0.05f, 0.1f, 0.03f}, {0, 0.1f, 0}, 1);
   RttOptions options = smallOptions(16, 8);
   options.bounces = 0, options.directions = 128;
-  const RadianceTransferTexture rtt = build(patch, options);
+  const transfer::SimulatedRtt rtt = build(patch, options);
   double red[2] = {0, 0}, green[2] = {0, 0};
   for (int x = 0; x < 16; ++x)
     for (int side = 0; side < 2; ++side) {
@@ -153,7 +153,7 @@ TEST(BuildRtt, ShadowsFallAwayFromTheLight) {
   addQuad(patch, {0.051f, 0, 0}, {0.051f, 0.1f, 0}, {0.051f, 0.1f, 0.02f}, {0.051f, 0, 0.02f});
   addQuad(patch, {0.049f, 0, 0}, {0.049f, 0, 0.02f}, {0.049f, 0.1f, 0.02f}, {0.049f, 0.1f, 0});
   RttOptions options = smallOptions(20, 1);
-  const RadianceTransferTexture rtt = build(patch, options);
+  const transfer::SimulatedRtt rtt = build(patch, options);
   const sh::RgbCoefficients light = discLight(5, Vec3(0.77f, 0, 0.64f).normalized(), 0.3);
   const double before = exitRadiance(rtt, Vec2(0.40f, 0.5f), Vec3(0, 0, 1), light)[0];
   const double after = exitRadiance(rtt, Vec2(0.62f, 0.5f), Vec3(0, 0, 1), light)[0];

@@ -8,7 +8,7 @@
 
 namespace lambent::meso {
 
-Rgb effectiveAlbedo(const RadianceTransferTexture& rtt) {
+Rgb effectiveAlbedo(const transfer::SimulatedRtt& rtt) {
   assert(rtt.values.size() >= rtt.planeSize());
   // View cells cover equal solid angles.
   std::vector<double> weights;

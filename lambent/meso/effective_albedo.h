@@ -2,7 +2,7 @@
 // wears it see of it.
 #pragma once
 
-#include "lambent/meso/radiance_transfer_texture.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::meso {
 
@@ -10,6 +10,6 @@ namespace lambent::meso {
 /// (1/π) ∫ ⟨L(u, v)⟩_u cos θ_v dv with L the exit radiance under unit radiance: the mean over
 /// positions, and over views weighted by their cosine. A flat diffuse patch: its albedo. Negative
 /// values, which quantisation can leave, count as 0.
-Rgb effectiveAlbedo(const RadianceTransferTexture& rtt);
+Rgb effectiveAlbedo(const transfer::SimulatedRtt& rtt);
 
 }  // namespace lambent::meso

@@ -1,4 +1,4 @@
-// Patches by formula: the meso-structures of Sloan 2003, Figures 4-6. All repeat themselves
+// Patches by formula: the meso-structures of sloan2003biscale, Figures 4-6. All repeat themselves
 // exactly. A period that is not square stretches the pattern; lengths "in periods" are along x.
 #pragma once
 

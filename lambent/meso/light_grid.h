@@ -1,4 +1,4 @@
-// The directional lights of Sloan 2003 §4.2, and eq. (5), which turns what they show into
+// The directional lights of sloan2003biscale §4.2, and eq. (5), which turns what they show into
 // harmonics.
 #pragma once
 

@@ -11,7 +11,7 @@
 
 namespace lambent::meso {
 
-/// A small piece of surface with depth that repeats itself without end (Sloan 2003 §4.2).
+/// A small piece of surface with depth that repeats itself without end (sloan2003biscale §4.2).
 ///
 /// Its geometry is a scene in the patch's frame, which is the frame of the RTT: +x along the patch,
 /// +y along the patch, +z away from the surface, metres. The surface is the union of the scene's

@@ -16,7 +16,7 @@
 
 namespace lambent::meso {
 
-Rgb exitRadiance(const RadianceTransferTexture& rtt, const Vec2& q, const Vec3& view,
+Rgb exitRadiance(const transfer::SimulatedRtt& rtt, const Vec2& q, const Vec3& view,
                  const sh::RgbCoefficients& light) {
   assert(light.bands == rtt.bands);
   const auto wrap = [](float t, int count) {
@@ -58,7 +58,7 @@ sh::RgbCoefficients discLight(int bands, const Vec3& towards, double halfAngle) 
   return light;
 }
 
-image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoefficients& light,
+image::Image pictureOf(const transfer::SimulatedRtt& rtt, const sh::RgbCoefficients& light,
                        const SquarePicture& options) {
   image::Image picture(options.pixels, options.pixels);
   const Vec3& view = options.view;
@@ -88,7 +88,7 @@ image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoeffici
   return picture;
 }
 
-image::Image preview(const RadianceTransferTexture& rtt, int pixels) {
+image::Image preview(const transfer::SimulatedRtt& rtt, int pixels) {
   constexpr int kGap = 4;
   const std::array<Vec3, 2> eyes = {Vec3(0, 0, 1), Vec3(0.2f, -0.72f, 0.66f).normalized()};
   const std::array<sh::RgbCoefficients, 3> lights = {

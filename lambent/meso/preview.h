@@ -2,16 +2,16 @@
 #pragma once
 
 #include "lambent/image/image.h"
-#include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::meso {
 
 /// Exit radiance Σ_i B_i(q, v) l_i at the place q of the patch (a fraction of its period, wrapped)
-/// towards the unit vector `view`: the nearest position, bilinear between views (Sloan 2003 §5).
-/// Both vectors in the patch's frame; a view below the horizon counts as level. `light` has the
-/// RTT's bands.
-Rgb exitRadiance(const RadianceTransferTexture& rtt, const Vec2& q, const Vec3& view,
+/// towards the unit vector `view`: the nearest position, bilinear between views (sloan2003biscale
+/// §5). Both vectors in the patch's frame; a view below the horizon counts as level. `light` has
+/// the RTT's bands.
+Rgb exitRadiance(const transfer::SimulatedRtt& rtt, const Vec2& q, const Vec3& view,
                  const sh::RgbCoefficients& light);
 
 /// A light like the sun through haze: radiance such that a level white surface which faces it
@@ -27,11 +27,11 @@ struct SquarePicture {
 };
 /// The patch on a square, seen from far away in parallel projection; black around it where the
 /// square is foreshortened. Linear radiance.
-image::Image pictureOf(const RadianceTransferTexture& rtt, const sh::RgbCoefficients& light,
+image::Image pictureOf(const transfer::SimulatedRtt& rtt, const sh::RgbCoefficients& light,
                        const SquarePicture& options);
 
 /// Six pictures: from above and from 49° off, under a small light from the upper left, the same
 /// from the right, and an even sky. Linear radiance.
-image::Image preview(const RadianceTransferTexture& rtt, int pixels = 384);
+image::Image preview(const transfer::SimulatedRtt& rtt, int pixels = 384);
 
 }  // namespace lambent::meso

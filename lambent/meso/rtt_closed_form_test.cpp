@@ -17,7 +17,7 @@
 namespace lambent::meso {
 namespace {
 
-double underEvenLight(const RadianceTransferTexture& rtt, int x, int y, int viewX = 0,
+double underEvenLight(const transfer::SimulatedRtt& rtt, int x, int y, int viewX = 0,
                       int viewY = 0) {
   return rtt.values[rtt.index(0, x, y, viewX, viewY)] * std::sqrt(4.0 * kPi);
 }
@@ -27,7 +27,7 @@ TEST(RttClosedForm, AFlatPatchIsTheCosineLobeForEveryPositionAndView) {
   RttOptions options = smallOptions(4, 3);
   options.bands = 6;
   const Patch patch = flatPatch(Rgb(0.2f, 0.5f, 0.8f));
-  const RadianceTransferTexture rtt = build(patch, options);
+  const transfer::SimulatedRtt rtt = build(patch, options);
   const sh::ZonalMoments cosine = sh::clampedCosine(6);
   std::vector<double> y(36);
   sh::evaluate(6, Vec3d(0, 0, 1), y);
@@ -48,7 +48,7 @@ TEST(RttClosedForm, ImagesOfAFlatPatchErrByTheQuadratureAlone) {
   // |error| ≤ 2π Σ h³/24 max|(z P_l)''| · √((2l+1)/4π), exact for l = 0, whose integrand is linear.
   RttOptions options = smallOptions(3, 2);
   options.method = RttMethod::Images;
-  const RadianceTransferTexture rtt = build(flatPatch(Rgb::Constant(0.6f)), options);
+  const transfer::SimulatedRtt rtt = build(flatPatch(Rgb::Constant(0.6f)), options);
   const sh::ZonalMoments cosine = sh::clampedCosine(5);
   // The largest |(z P_l(z))''| on [0, 1], at z = 1: P'' + 2P' there is (l−1)l(l+1)(l+2)/8 + l(l+1).
   for (int i = 0; i < 25; ++i) {
@@ -77,7 +77,7 @@ TEST(RttClosedForm, AFlatGlossyPatchReflectsTheMirroredLobe) {
   patch.scene.materials[0].lobeExponent = 20.0f;
   RttOptions options = smallOptions(2, 1);
   options.lobeDirections = 256;
-  const RadianceTransferTexture rtt = build(patch, options);
+  const transfer::SimulatedRtt rtt = build(patch, options);
   const sh::ZonalMoments lobe = sh::phongLobe(5, 20.0);
   std::vector<double> y(25);
   sh::evaluate(5, Vec3d(0, 0, 1), y);
@@ -85,7 +85,7 @@ TEST(RttClosedForm, AFlatGlossyPatchReflectsTheMirroredLobe) {
     EXPECT_NEAR(rtt.values[rtt.index(i, 0, 0, 0, 0)], 0.5 * lobe[sh::bandOf(i)] * y[i], 1e-6) << i;
   // Obliquely, light that comes from R = reflect(v) counts: the moment along x is against the view.
   options.views = 8;
-  const RadianceTransferTexture oblique = build(patch, options);
+  const transfer::SimulatedRtt oblique = build(patch, options);
   const Vec3 view = viewDirection(8, 6, 3);
   ASSERT_GT(view.x(), 0.4f);
   EXPECT_LT(oblique.values[oblique.index(sh::index(1, 1), 0, 0, 6, 3)], -0.05);
@@ -100,7 +100,7 @@ TEST(RttClosedForm, TheBottomOfASlotSeesTheSkyBetweenItsWalls) {
   RttOptions options = smallOptions(16, 1);
   options.height = 2;
   options.directions = 4096;
-  const RadianceTransferTexture rtt = build(patch, options);
+  const transfer::SimulatedRtt rtt = build(patch, options);
   int seen = 0;
   for (int x = 0; x < 16; ++x) {
     // Means over the position's two sub-samples.
@@ -130,7 +130,7 @@ TEST(RttClosedForm, AWhiteGrooveApproachesTheFurnaceFromBelow) {
   double before = 0.0;
   for (const int bounces : {0, 1, 2, 4, 12}) {
     options.bounces = bounces;
-    const RadianceTransferTexture rtt = build(patch, options);
+    const transfer::SimulatedRtt rtt = build(patch, options);
     double mean = 0.0;
     for (int x = 0; x < 12; ++x) {
       EXPECT_LT(underEvenLight(rtt, x, 0), 1.003);
@@ -149,7 +149,7 @@ TEST(RttClosedForm, AWhiteHeightFieldReflectsAllOfEvenLight) {
   const Patch patch = bumpyPatch(Rgb::Ones());
   RttOptions options = smallOptions(6, 4);
   options.bounces = 20;
-  const RadianceTransferTexture rtt = build(patch, options);
+  const transfer::SimulatedRtt rtt = build(patch, options);
   for (int p = 0; p < 36; ++p)
     for (int v = 0; v < 16; ++v) {
       const double radiance = underEvenLight(rtt, p % 6, p / 6, v % 4, v / 4);

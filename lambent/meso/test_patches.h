@@ -20,10 +20,10 @@ inline RttOptions smallOptions(int positions, int views) {
   return options;
 }
 
-inline RadianceTransferTexture build(const Patch& patch, const RttOptions& options) {
+inline transfer::SimulatedRtt build(const Patch& patch, const RttOptions& options) {
   auto rtt = buildRtt(patch, options, {});
   EXPECT_TRUE(rtt) << (rtt ? "" : rtt.error().message);
-  return rtt ? std::move(rtt->value) : RadianceTransferTexture{};
+  return rtt ? std::move(rtt->value) : transfer::SimulatedRtt{};
 }
 
 /// Quads, counter-clockwise from the front, each with its own flat normal.

@@ -8,7 +8,7 @@
 namespace lambent::reference {
 
 /// Whether the surface hides what is behind it from its glossy lobe. Unshadowed transfer T_GU does
-/// not (Sloan 2002 §4.2 integrates over the whole sphere).
+/// not (sloan2002precomputed §4.2 integrates over the whole sphere).
 enum class Horizon { Blocks, Open };
 
 class Scattering {

@@ -23,54 +23,12 @@
 #include <Eigen/LU>
 
 #include "lambent/render/gl_bodies.h"
+#include "lambent/render/gl_state.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/sh/rotation.h"
 
 namespace lambent::render {
 namespace {
-
-/// What calls leave as it was.
-class KeptState {
- public:
-  KeptState() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
-    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
-    glGetIntegerv(GL_VIEWPORT, viewport_);
-    glGetIntegerv(GL_FRONT_FACE, &frontFace_);
-    glGetIntegerv(GL_DEPTH_FUNC, &depthFunction_);
-    glGetIntegerv(GL_CULL_FACE_MODE, &culled_);
-    glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
-    glGetBooleanv(GL_COLOR_WRITEMASK, colorMask_);
-    for (std::size_t i = 0; i < kSwitches.size(); ++i) on_[i] = glIsEnabled(kSwitches[i]);
-    for (const GLenum name : {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST})
-      glDisable(name);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  }
-  ~KeptState() {
-    for (std::size_t i = 0; i < kSwitches.size(); ++i)
-      on_[i] ? glEnable(kSwitches[i]) : glDisable(kSwitches[i]);
-    glDepthMask(depthMask_);
-    glColorMask(colorMask_[0], colorMask_[1], colorMask_[2], colorMask_[3]);
-    glDepthFunc(GLenum(depthFunction_));
-    glCullFace(GLenum(culled_));
-    glFrontFace(GLenum(frontFace_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_));
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read_));
-  }
-  KeptState(const KeptState&) = delete;
-  KeptState& operator=(const KeptState&) = delete;
-
- private:
-  static constexpr std::array<GLenum, 9> kSwitches = {
-      GL_BLEND,          GL_CULL_FACE,      GL_SCISSOR_TEST,   GL_STENCIL_TEST,  GL_DEPTH_TEST,
-      GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1, GL_CLIP_DISTANCE2, GL_CLIP_DISTANCE3};
-  GLint draw_ = 0, read_ = 0, viewport_[4] = {}, frontFace_ = 0, depthFunction_ = 0, culled_ = 0;
-  GLboolean depthMask_ = GL_TRUE, colorMask_[4] = {};
-  std::array<GLboolean, 9> on_{};
-};
 
 Mat4 inverseOfRigid(const Mat4& m) {
   Mat4 result = Mat4::Identity();
@@ -290,7 +248,7 @@ Status LightCapture::capture(double time, const Mat4& worldFromAsset,
     glNamedBufferSubData(impl_->environment.name(), 0, GLsizeiptr(values.size() * sizeof(float)),
                          values.data());
   }
-  const KeptState kept;
+  const GlStateGuard guard;
   const float zero[4] = {}, far = 1.0f;
   const GLuint target = impl_->framebuffer.name();
   glClearNamedFramebufferfv(target, GL_COLOR, 0, zero);
@@ -340,10 +298,9 @@ Result<std::vector<sh::RgbCoefficients>> LightCapture::read() const {
 
 void LightCapture::draw(unsigned framebuffer, int width, int height, const Mat4& clipFromWorld,
                         double time) const {
-  const KeptState kept;
+  const GlStateGuard guard;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
-  for (int i = 0; i < 4; ++i) glDisable(GLenum(GL_CLIP_DISTANCE0 + i));
   glDepthFunc(GL_LEQUAL);
   glEnable(GL_CULL_FACE);
   // A projection that mirrors nothing turns the depth over: its determinant is negative.

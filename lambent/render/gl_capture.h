@@ -21,9 +21,9 @@ struct CaptureOptions {
 };
 
 /// Works in the OpenGL 4.5 context that is current when it is made, which must be current in every
-/// call and outlive it. Calls bind what they need, and leave the framebuffer binding, the viewport
-/// and what is enabled as they were; other bindings (program, vertex array, buffers of shader
-/// storage 0-2, texture unit 0) are lost. Nothing here waits for the GPU but read().
+/// call and outlive it. Calls leave GL's state as it was (GlStateGuard), but for what is bound to
+/// texture units, image units and indexed storage buffers. Nothing here waits for the GPU but
+/// read().
 class LightCapture {
  public:
   /// `points`: where light is sampled, in the asset's frame (capture::Blending::samples), at least
@@ -38,7 +38,7 @@ class LightCapture {
   /// Fills the light buffer with the light at every sample as things stand at `time` (seconds), in
   /// the frame of the asset, which `worldFromAsset` (rigid) places in the world. `worldLight`: the
   /// distant light in the world, of any bands (0 … 10): what bodies hide of it is taken away, the
-  /// rest is exact. The same numbers as capture::captureByRays, to rounding.
+  /// rest is exact. The same numbers as reference::captureByRays, to rounding.
   Status capture(double time, const Mat4& worldFromAsset, const sh::RgbCoefficients& worldLight);
 
   /// [sample][coefficient][3] floats: LiveRenderer::setLightField's. One buffer for life; its

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "lambent/capture/capture_by_rays.h"
 #include "lambent/capture/surroundings.h"
 #include "lambent/light/environment.h"
+#include "lambent/reference/capture_by_rays.h"
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_target.h"
 #include "lambent/scene/camera.h"
@@ -101,7 +101,8 @@ TEST_F(GlCapture, EqualsTheSameByRays) {
     const auto light = c.skyBands > 0 ? sky.project(c.skyBands) : sh::RgbCoefficients();
     for (const double time : {0.0, 3.7}) {
       const auto gl = capture(onGpu, time, moved, light);
-      const auto rays = capture::captureByRays(scene, time, light, moved, points, c.bands, c.cube);
+      const auto rays =
+          reference::captureByRays(scene, time, light, moved, points, c.bands, c.cube);
       for (std::size_t k = 0; k < points.size(); ++k) {
         errors.push_back(relativeError({gl[k]}, {rays[k]}));
         EXPECT_LT(errors.back(), 0.1)
@@ -180,6 +181,24 @@ TEST_F(GlCapture, LeavesStateAsItWas) {
   glScissor(0, 0, 1, 1);
   glColorMask(GL_FALSE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_GREATER);
+  glCullFace(GL_FRONT_AND_BACK);
+  glEnable(GL_CLIP_DISTANCE2);
+  const Program::Stage stage{
+      GL_COMPUTE_SHADER, "nothing", {"layout(local_size_x = 1) in; void main() {}"}};
+  const Result<Program> program = Program::make({&stage, 1});
+  ASSERT_TRUE(program) << program.error().message;
+  program->use();
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  const VertexArray array(name);
+  glBindVertexArray(name);
+  const auto of = [](GLenum which) {
+    GLint value = 0;
+    glGetIntegerv(which, &value);
+    return value;
+  };
+  const GLint used = of(GL_CURRENT_PROGRAM);
+  ASSERT_NE(used, 0);
   const auto before = capture(onGpu, 0, Mat4::Identity(), {});
   EXPECT_NEAR(before[0].values[0], std::sqrt(kPi) * (1 - std::cos(std::asin(1 / 3.0))), 1e-2);
   GLint viewport[4], framebuffer = 0, function = 0;
@@ -192,6 +211,12 @@ TEST_F(GlCapture, LeavesStateAsItWas) {
   EXPECT_TRUE(glIsEnabled(GL_BLEND));
   EXPECT_FALSE(glIsEnabled(GL_DEPTH_TEST));
   EXPECT_FALSE(glIsEnabled(GL_CLIP_DISTANCE0));
+  EXPECT_TRUE(glIsEnabled(GL_CLIP_DISTANCE2));
+  EXPECT_EQ(of(GL_CULL_FACE_MODE), GL_FRONT_AND_BACK);
+  EXPECT_EQ(of(GL_CURRENT_PROGRAM), used);
+  EXPECT_EQ(of(GL_VERTEX_ARRAY_BINDING), GLint(name));
+  glDisable(GL_CLIP_DISTANCE2);
+  glCullFace(GL_BACK);
 }
 
 TEST_F(GlCapture, KnowsWhereBodiesAre) {

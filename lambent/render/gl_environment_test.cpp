@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lambent/reference/relit_picture.h"
 #include "lambent/render/gl_picture.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/render/test_agreement.h"
@@ -50,7 +51,7 @@ TEST(GlEnvironment, ShowsDiscsAsTheCpuDoes) {
   for (const Environment& environment : {discs(), discs() + shade::test::sky()})
     for (const bool background : {false, true}) {
       options.background = background;
-      const auto cpu = shade::picture(asset, light, environment, camera, options);
+      const auto cpu = reference::relitPicture(asset, light, environment, camera, options);
       ASSERT_TRUE(cpu) << cpu.error().message;
       const auto gl = render::picture(asset, light, environment, camera, options);
       ASSERT_TRUE(gl) << gl.error().message;

@@ -1,8 +1,7 @@
 // This work is based on:
 // - sloan2003biscale: bi-scale radiance transfer, §5, with what hardware has learnt since: the
-// light at
-//   the vertices is made by a compute pass, and the texture of 4 + 1 dimensions is a buffer that a
-//   fragment reads 16 bytes at a time.
+//   light at the vertices is made by a compute pass, and the texture of 4 + 1 dimensions is a
+//   buffer that a fragment reads 16 bytes at a time.
 //
 // A buffer and not an array texture with the hardware's bilinear views: the 25 RGB coefficients of
 // a view lie side by side (80 bytes in 8 bits), where an array's layers would touch 25 places far
@@ -18,18 +17,18 @@
 #include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
-#include "lambent/encode/half.h"
 #include "lambent/render/batches.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/shade/lit_patch.h"
+#include "lambent/transfer/encode.h"
+#include "lambent/transfer/half.h"
 
 namespace lambent::render {
 namespace {
 
-using encode::EncodedBiScale;
-using encode::EncodedMesh;
-using encode::EncodedRtt;
-using encode::Encoding;
+using transfer::EncodedRtt;
+using transfer::Encoding;
+using BiScale = transfer::BiScale<transfer::Numbers>;
 
 constexpr int kMostLevels = 16;  // as in rtt_look_up.glsl
 
@@ -45,7 +44,7 @@ struct PatchTriangle {
   float gradientY[3], unused2;
 };
 
-std::vector<PatchVertex> gatherVertices(const scene::Mesh& mesh, const EncodedBiScale& biScale,
+std::vector<PatchVertex> gatherVertices(const scene::Mesh& mesh, const BiScale& biScale,
                                         const TriangleBatch& batch) {
   std::vector<PatchVertex> vertices;
   for (const std::uint32_t from : batch.vertices) {
@@ -62,7 +61,7 @@ std::vector<PatchVertex> gatherVertices(const scene::Mesh& mesh, const EncodedBi
 }
 
 /// Of the triangles first … first + count − 1.
-std::vector<PatchTriangle> gatherTriangles(const scene::Mesh& mesh, const EncodedBiScale& biScale,
+std::vector<PatchTriangle> gatherTriangles(const scene::Mesh& mesh, const BiScale& biScale,
                                            std::size_t first, std::size_t count) {
   std::vector<PatchTriangle> triangles;
   for (std::size_t t = first; t < first + count; ++t) {
@@ -70,7 +69,7 @@ std::vector<PatchTriangle> gatherTriangles(const scene::Mesh& mesh, const Encode
     const Vec3 n =
         (mesh.positions[j] - mesh.positions[i]).cross(mesh.positions[k] - mesh.positions[i]);
     shade::PatchGradient g;
-    if (!biScale.idMap) g = shade::patchGradient(biScale, mesh, std::uint32_t(t));
+    if (!biScale.patch.idMap()) g = shade::patchGradient(biScale.patch, mesh, std::uint32_t(t));
     triangles.push_back({{n.x(), n.y(), n.z()},
                          0.0f,
                          {g.x.x(), g.x.y(), g.x.z()},
@@ -122,7 +121,7 @@ void pack(const float* numbers, int stride, Encoding encoding, std::span<const f
       break;
     case Encoding::Float16:
       for (int i = 0; i < stride; ++i)
-        words[i / 2] |= std::uint32_t(encode::halfFromFloat(numbers[i])) << (i % 2 * 16);
+        words[i / 2] |= std::uint32_t(transfer::halfFromFloat(numbers[i])) << (i % 2 * 16);
       break;
     case Encoding::Float32:
       for (int i = 0; i < stride; ++i) words[i] = std::bit_cast<std::uint32_t>(numbers[i]);
@@ -136,7 +135,7 @@ Result<GlPatches::Rtt> GlPatches::makeRtt(int index, bool filter) const {
   const EncodedRtt& from = asset_->transfer.rtts[std::size_t(index)];
   const Encoding encoding = from.values.encoding;
   const shade::RttPyramid pyramid =
-      shade::makePyramid(encode::decode(from), filter ? kMostLevels : 1);
+      shade::makePyramid(transfer::decode(from), filter ? kMostLevels : 1);
 
   Rtt rtt;
   std::size_t positions = 0;
@@ -191,7 +190,7 @@ Result<GlPatches::Rtt> GlPatches::makeRtt(int index, bool filter) const {
 }
 
 Status GlPatches::addIdMap(std::uint32_t mesh) {
-  const std::optional<synthesis::IdMap>& map = biScaleOf(mesh).idMap;
+  const transfer::IdMap* map = biScaleOf(mesh).patch.idMap();
   if (!map) return Status::ok();
   if (map->width > options_.largestTexture || map->height > options_.largestTexture)
     return report::failed(fmt::format(
@@ -234,16 +233,16 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
   return Status::ok();
 }
 
-Status GlPatches::add(std::uint32_t index, const EncodedMesh& shown,
-                      std::optional<shade::MacroTransport> macro, TransferOnGpu& transfer) {
+Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
   const scene::Mesh& mesh = asset_->scene.meshes[index];
-  const EncodedBiScale& biScale = biScaleOf(index);
+  const BiScale& biScale = biScaleOf(index);
   const EncodedRtt& rtt = rttOf(index);
-  const bool filter = options_.biScale.filter;
-  if (!rtts_.contains(biScale.rtt)) {
-    Result<Rtt> made = makeRtt(biScale.rtt, filter);
+  const bool filter = showing_.filter;
+  const transfer::Kind kind = shade::kindShown(asset_->transfer.meshes[index], showing_);
+  if (!rtts_.contains(biScale.patch.rtt)) {
+    Result<Rtt> made = makeRtt(biScale.patch.rtt, filter);
     if (!made) return made.error();
-    rtts_.emplace(biScale.rtt, std::move(*made));
+    rtts_.emplace(biScale.patch.rtt, std::move(*made));
   }
   if (Status s = addIdMap(index); !s) return s;
   if (Status s = addProgram(rtt.bands, rtt.values.encoding, filter); !s) return s;
@@ -265,8 +264,8 @@ Status GlPatches::add(std::uint32_t index, const EncodedMesh& shown,
     draw.corners = makeBuffer(batch.corners);
     draw.cornerCount = int(batch.corners.size());
     if (Status s = checkGl("uploading a mesh"); !s) return s;
-    Result<Relit> light =
-        transfer.incident(shown, batch.vertices, rtt.bands, rtts_.at(biScale.rtt).scales, macro);
+    Result<Relit> light = transfer.incident(biScale, batch.vertices, rtt.bands,
+                                            rtts_.at(biScale.patch.rtt).scales, kind);
     if (!light) return light.error();
     draw.light = std::move(*light);
     draws_.push_back(std::move(draw));
@@ -275,69 +274,67 @@ Status GlPatches::add(std::uint32_t index, const EncodedMesh& shown,
   return Status::ok();
 }
 
-Status GlPatches::choose(const shade::BiScaleOptions& biScale) {
-  if (biScale.filter != options_.biScale.filter) {
+Status GlPatches::choose(const shade::Showing& showing) {
+  if (showing.filter != showing_.filter) {
     std::map<int, Rtt> made;
     for (const auto& [index, rtt] : rtts_) {
-      Result<Rtt> one = makeRtt(index, biScale.filter);
+      Result<Rtt> one = makeRtt(index, showing.filter);
       if (!one) return one.error();
       made.emplace(index, std::move(*one));
       const EncodedRtt& encoded = asset_->transfer.rtts[std::size_t(index)];
-      if (Status s = addProgram(encoded.bands, encoded.values.encoding, biScale.filter); !s)
+      if (Status s = addProgram(encoded.bands, encoded.values.encoding, showing.filter); !s)
         return s;
     }
     rtts_ = std::move(made);
   }
-  options_.biScale = biScale;
+  showing_ = showing;
   return Status::ok();
 }
 
-Result<std::vector<Relit>> GlPatches::lightUnder(std::uint32_t mesh, const EncodedMesh& shown,
-                                                 std::optional<shade::MacroTransport> macro,
+Result<std::vector<Relit>> GlPatches::lightUnder(const shade::Showing& showing,
                                                  TransferOnGpu& transfer) const {
   std::vector<Relit> result;
   for (const Draw& draw : draws_) {
-    if (draw.mesh != mesh) continue;
-    Result<Relit> light = transfer.incident(shown, draw.light.receivers, rttOf(mesh).bands,
-                                            rtts_.at(biScaleOf(mesh).rtt).scales, macro);
+    const BiScale& biScale = biScaleOf(draw.mesh);
+    Result<Relit> light = transfer.incident(
+        biScale, draw.light.receivers, rttOf(draw.mesh).bands, rtts_.at(biScale.patch.rtt).scales,
+        shade::kindShown(asset_->transfer.meshes[draw.mesh], showing));
     if (!light) return light.error();
     result.push_back(std::move(*light));
   }
   return result;
 }
 
-void GlPatches::setLight(std::uint32_t mesh, std::vector<Relit> light) {
-  auto next = light.begin();
-  for (Draw& draw : draws_) {
-    if (draw.mesh != mesh) continue;
-    next->blend = std::move(draw.light.blend);
-    draw.light = std::move(*next++);
+void GlPatches::setLight(std::vector<Relit> light) {
+  for (std::size_t i = 0; i < draws_.size(); ++i) {
+    light[i].blend = std::move(draws_[i].light.blend);
+    draws_[i].light = std::move(light[i]);
   }
 }
 
 void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
   for (const Draw& draw : draws_) {
-    const EncodedBiScale& biScale = biScaleOf(draw.mesh);
+    const BiScale& biScale = biScaleOf(draw.mesh);
     const EncodedRtt& encoded = rttOf(draw.mesh);
-    const Rtt& rtt = rtts_.at(biScale.rtt);
+    const Rtt& rtt = rtts_.at(biScale.patch.rtt);
     const Program& program =
-        programs_.at({encoded.bands, encoded.values.encoding, options_.biScale.filter});
+        programs_.at({encoded.bands, encoded.values.encoding, showing_.filter});
     program.use();
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
     program.set("pixelWidth", view.sampleWidth.perMetre, view.sampleWidth.constant);
     program.set("views", encoded.views);
-    program.set("viewDependent", int(options_.biScale.viewDependent));
-    program.set("hasIdMap", int(biScale.idMap.has_value()));
-    program.set("tiles", biScale.tiles.x(), biScale.tiles.y());
-    program.set("periodsPerMetre", 1.0f / (encoded.size.x() * biScale.scale),
-                1.0f / (encoded.size.y() * biScale.scale));
+    program.set("viewDependent", int(showing_.viewDependent));
+    program.set("hasIdMap", int(biScale.patch.idMap() != nullptr));
+    program.set("tiles", biScale.patch.tiles().x(), biScale.patch.tiles().y());
+    program.set("periodsPerMetre", 1.0f / (encoded.size.x() * biScale.patch.scale),
+                1.0f / (encoded.size.y() * biScale.patch.scale));
     program.set("levelCount", int(rtt.levels.size()));
     for (std::size_t k = 0; k < rtt.levels.size(); ++k)
       program.set(fmt::format("levels[{}]", k).c_str(), rtt.levels[k].width, rtt.levels[k].height,
                   rtt.levels[k].first, 0);
     glBindTextureUnit(0, rtt.texture.name());
-    glBindTextureUnit(1, biScale.idMap ? idMaps_.at(draw.mesh).name() : 0);
+    glBindTextureUnit(1, biScale.patch.idMap() ? idMaps_.at(draw.mesh).name() : 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, draw.vertices.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, draw.light.product.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, draw.triangles.name());

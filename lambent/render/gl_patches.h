@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -13,34 +12,30 @@
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
-#include "lambent/shade/bi_scale_options.h"
+#include "lambent/shade/showing.h"
 
 namespace lambent::render {
 
 struct GlPatchOptions {
   std::size_t largestBlock = 0;  ///< bytes of one storage buffer
   int largestTexture = 0;        ///< side, in texels
-  shade::BiScaleOptions biScale;
 };
 
 class GlPatches {
  public:
-  /// `asset` must outlive it, and have passed shade::checkBiScale.
-  GlPatches(const asset::Asset& asset, const GlPatchOptions& options)
-      : asset_(&asset), options_(options) {}
+  /// `asset` must outlive it, and fit together (asset::faultOf).
+  GlPatches(const asset::Asset& asset, const GlPatchOptions& options, const shade::Showing& showing)
+      : asset_(&asset), options_(options), showing_(showing) {}
 
-  /// Uploads a mesh with meso-structure and all that it needs. `shown` and `macro`: its transfer,
-  /// as TransferOnGpu::incident takes it.
-  Status add(std::uint32_t mesh, const encode::EncodedMesh& shown,
-             std::optional<shade::MacroTransport> macro, TransferOnGpu& transfer);
+  /// Uploads a mesh with meso-structure and all that it needs.
+  Status add(std::uint32_t mesh, TransferOnGpu& transfer);
   /// Filter and dependence on the view, which need no other transfer.
-  Status choose(const shade::BiScaleOptions& biScale);
+  Status choose(const shade::Showing& showing);
 
-  /// The light of a mesh under other transfer: as many as it has pieces, to be given to setLight.
-  Result<std::vector<Relit>> lightUnder(std::uint32_t mesh, const encode::EncodedMesh& shown,
-                                        std::optional<shade::MacroTransport> macro,
+  /// The light of all pieces under other transfer, to be given to setLight.
+  Result<std::vector<Relit>> lightUnder(const shade::Showing& showing,
                                         TransferOnGpu& transfer) const;
-  void setLight(std::uint32_t mesh, std::vector<Relit> light);
+  void setLight(std::vector<Relit> light);
   /// Calls each(mesh, relit) for every piece.
   template <class Each>
   void forEach(Each each) {
@@ -69,7 +64,7 @@ class GlPatches {
     std::vector<Level> levels;
     std::vector<float> scales;  ///< of its coefficients: what the light is multiplied with
   };
-  using ProgramKey = std::tuple<int, encode::Encoding, bool>;  ///< bands, encoding, filter
+  using ProgramKey = std::tuple<int, transfer::Encoding, bool>;  ///< bands, encoding, filter
   struct Draw {
     std::uint32_t mesh = 0;
     Buffer vertices, triangles, corners;
@@ -79,16 +74,17 @@ class GlPatches {
 
   Result<Rtt> makeRtt(int index, bool filter) const;
   Status addIdMap(std::uint32_t mesh);
-  Status addProgram(int bands, encode::Encoding encoding, bool filter);
-  const encode::EncodedBiScale& biScaleOf(std::uint32_t mesh) const {
-    return *asset_->transfer.meshes[mesh].biScale;
+  Status addProgram(int bands, transfer::Encoding encoding, bool filter);
+  const transfer::BiScale<transfer::Numbers>& biScaleOf(std::uint32_t mesh) const {
+    return std::get<transfer::BiScale<transfer::Numbers>>(asset_->transfer.meshes[mesh]);
   }
-  const encode::EncodedRtt& rttOf(std::uint32_t mesh) const {
-    return asset_->transfer.rtts[std::size_t(biScaleOf(mesh).rtt)];
+  const transfer::EncodedRtt& rttOf(std::uint32_t mesh) const {
+    return asset_->transfer.rtts[std::size_t(biScaleOf(mesh).patch.rtt)];
   }
 
   const asset::Asset* asset_;
   GlPatchOptions options_;
+  shade::Showing showing_;
   std::map<int, Rtt> rtts_;                  ///< by index into the asset's
   std::map<std::uint32_t, Texture> idMaps_;  ///< by mesh
   std::map<ProgramKey, Program> programs_;

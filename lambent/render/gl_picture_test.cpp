@@ -13,10 +13,10 @@
 namespace lambent::render {
 namespace {
 
-using encode::Encoding;
 using shade::PictureOptions;
 using shade::test::cameraAt;
 using test::expectAgreement;
+using transfer::Encoding;
 
 PictureOptions small(int samples) {
   PictureOptions options;
@@ -68,7 +68,7 @@ TEST(GlPicture, GlossyAtVerticesAndTexels) {
   expectAgreement("glossy", asset, kCamera, small(4));
 
   PictureOptions sharper = small(1);
-  sharper.lobeExponent = 50.0f;
+  sharper.showing.lobeExponent = 50.0f;
   expectAgreement("glossy-50", asset, kCamera, sharper);
 }
 

@@ -14,6 +14,7 @@ GlStateGuard::GlStateGuard() {
   glGetIntegerv(GL_POLYGON_MODE, polygonMode_);
   glGetIntegerv(GL_DEPTH_FUNC, &depthFunction_);
   glGetIntegerv(GL_FRONT_FACE, &frontFace_);
+  glGetIntegerv(GL_CULL_FACE_MODE, &culled_);
   glGetIntegerv(GL_CLIP_ORIGIN, &clipOrigin_);
   glGetIntegerv(GL_CLIP_DEPTH_MODE, &clipDepth_);
   glGetIntegerv(GL_ACTIVE_TEXTURE, &activeTexture_);
@@ -46,6 +47,7 @@ GlStateGuard::~GlStateGuard() {
   glPolygonMode(GL_FRONT_AND_BACK, GLenum(polygonMode_[0]));
   glDepthFunc(GLenum(depthFunction_));
   glFrontFace(GLenum(frontFace_));
+  glCullFace(GLenum(culled_));
   glClipControl(GLenum(clipOrigin_), GLenum(clipDepth_));
   glActiveTexture(GLenum(activeTexture_));
   glDepthRange(depthRange_[0], depthRange_[1]);

@@ -1,8 +1,7 @@
 // This work is based on:
 // - sloan2002precomputed: run-time rendering of radiance transfer, §6. Transfer stays in the
-// asset's
-//   own frame: light, camera and environment are brought there, which is a few numbers a frame
-//   (step 2: "it is more efficient to rotate the few radiance samples").
+//   asset's own frame: light, camera and environment are brought there, which is a few numbers a
+//   frame (step 2: "it is more efficient to rotate the few radiance samples").
 
 #include "lambent/render/live_renderer.h"
 
@@ -17,7 +16,6 @@
 #include "lambent/render/gl_scene.h"
 #include "lambent/render/gl_state.h"
 #include "lambent/render/gl_target.h"
-#include "lambent/shade/check_bi_scale.h"
 #include "lambent/shade/picture_frame.h"
 
 namespace lambent::render {
@@ -25,11 +23,9 @@ namespace {
 
 constexpr std::size_t kLargestBlock = std::size_t(128) << 20;
 
-shade::PictureOptions pictureOptions(const LiveOptions& options) {
+shade::PictureOptions pictureOptions(const shade::Showing& showing) {
   shade::PictureOptions result;
-  result.transfer = options.transfer;
-  result.lobeExponent = options.lobeExponent;
-  result.biScale = options.biScale;
+  result.showing = showing;
   return result;
 }
 
@@ -60,15 +56,10 @@ scene::Box moved(const scene::Box& box, const Mat4& dstFromSrc) {
 }  // namespace
 
 struct LiveRenderer::Impl {
-  Impl(const asset::Asset& from, const LiveOptions& chosen, const GlLimits& taken, GlScene made)
-      : asset(from),
-        options(chosen),
-        bounds(scene::bounds(from.scene)),
-        limits(taken),
-        scene(std::move(made)) {}
+  Impl(const asset::Asset& from, const GlLimits& taken, GlScene made)
+      : asset(from), bounds(scene::bounds(from.scene)), limits(taken), scene(std::move(made)) {}
 
   const asset::Asset& asset;
-  LiveOptions options;
   scene::Box bounds;
   GlLimits limits;
   GlScene scene;
@@ -104,13 +95,13 @@ LiveRenderer::LiveRenderer(LiveRenderer&&) noexcept = default;
 LiveRenderer& LiveRenderer::operator=(LiveRenderer&&) noexcept = default;
 LiveRenderer::~LiveRenderer() = default;
 
-Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const LiveOptions& options) {
-  return make(asset, options, kLargestBlock);
+Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const shade::Showing& showing) {
+  return make(asset, showing, kLargestBlock);
 }
 
-Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const LiveOptions& options,
+Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const shade::Showing& showing,
                                         std::size_t largestBlock) {
-  if (Status s = shade::checkPicture(asset, sh::RgbCoefficients(1), {}, pictureOptions(options));
+  if (Status s = shade::checkPicture(asset, sh::RgbCoefficients(1), {}, pictureOptions(showing));
       !s)
     return s.error();
   if (epoxy_gl_version() < 45)
@@ -123,22 +114,17 @@ Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const LiveOpt
   GlSceneOptions sceneOptions;
   sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
   sceneOptions.largestTexture = limits.largestTexture;
-  sceneOptions.transfer = options.transfer;
-  sceneOptions.lobeExponent = options.lobeExponent;
-  sceneOptions.biScale = options.biScale;
+  sceneOptions.showing = showing;
   Result<GlScene> scene = GlScene::make(asset, sceneOptions);
   if (!scene) return scene.error();
-  return LiveRenderer(std::make_unique<Impl>(asset, options, limits, std::move(*scene)));
+  return LiveRenderer(std::make_unique<Impl>(asset, limits, std::move(*scene)));
 }
 
-Status LiveRenderer::choose(const LiveOptions& options) {
-  if (Status s = shade::checkOptions(pictureOptions(options)); !s) return s;
-  if (options.biScale.macro != impl_->options.biScale.macro)
-    if (Status s = shade::checkBiScale(impl_->asset, options.biScale); !s) return s;
+Status LiveRenderer::choose(const shade::Showing& showing) {
+  if (Status s = shade::checkOptions(pictureOptions(showing)); !s) return s;
+  if (Status s = shade::checkHeld(impl_->asset, showing); !s) return s;
   const GlStateGuard guard;
-  if (Status s = impl_->scene.choose(options.transfer, options.lobeExponent, options.biScale); !s)
-    return s;
-  impl_->options = options;
+  if (Status s = impl_->scene.choose(showing); !s) return s;
   impl_->stale = impl_->hasLight;
   return Status::ok();
 }
@@ -159,15 +145,16 @@ void LiveRenderer::setLight(const sh::RgbCoefficients& assetLight) {
 
 Status LiveRenderer::setLightField(const capture::Blending& blending, unsigned lightBuffer,
                                    int bands) {
-  const encode::EncodedField& transfer = impl_->asset.transfer;
+  const transfer::EncodedField& field = impl_->asset.transfer;
   if (bands < 1 || bands > sh::kMaxBands)
     return report::badUsage(
         fmt::format("a light field of {} bands: 1 to {} can be", bands, sh::kMaxBands));
-  if (blending.meshes.size() != transfer.meshes.size())
+  if (blending.meshes.size() != field.meshes.size())
     return report::badUsage(fmt::format("blending for {} meshes, but the asset has {}",
-                                        blending.meshes.size(), transfer.meshes.size()));
-  for (std::size_t m = 0; m < transfer.meshes.size(); ++m) {
-    const std::size_t receivers = transfer.meshes[m].receiverCount();
+                                        blending.meshes.size(), field.meshes.size()));
+  for (std::size_t m = 0; m < field.meshes.size(); ++m) {
+    const transfer::Receivers* held = transfer::receiversOf(field.meshes[m]);
+    const std::size_t receivers = held ? held->size() : 0;
     if (receivers > 0 && blending.meshes[m].size() != receivers)
       return report::badUsage(fmt::format("blending for {} receivers of mesh {}, which has {}",
                                           blending.meshes[m].size(), m, receivers));

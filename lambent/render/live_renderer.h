@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 
 #include "lambent/asset/asset.h"
 #include "lambent/capture/blending.h"
@@ -12,18 +11,10 @@
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
 #include "lambent/sh/coefficients.h"
-#include "lambent/shade/bi_scale_options.h"
-#include "lambent/shade/transfer_choice.h"
+#include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
 
 namespace lambent::render {
-
-/// What may be switched while an asset is shown.
-struct LiveOptions {
-  shade::TransferChoice transfer = shade::TransferChoice::Best;
-  std::optional<float> lobeExponent;  ///< instead of the materials'
-  shade::BiScaleOptions biScale;      ///< its `macro` wins over `transfer` where it is set
-};
 
 /// How things stand in one frame. World is where camera and lamps are; the asset may be turned and
 /// moved in it.
@@ -43,17 +34,17 @@ struct LiveView {
 class LiveRenderer {
  public:
   /// Checks and uploads everything. `asset` must outlive it. Black until there is a light.
-  static Result<LiveRenderer> make(const asset::Asset& asset, const LiveOptions& options);
+  static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing);
   /// The same with storage buffers of `largestBlock` bytes at most, for tests.
-  static Result<LiveRenderer> make(const asset::Asset& asset, const LiveOptions& options,
+  static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing,
                                    std::size_t largestBlock);
   LiveRenderer(LiveRenderer&&) noexcept;
   LiveRenderer& operator=(LiveRenderer&&) noexcept;
   ~LiveRenderer();
 
-  /// Other options; what they need is uploaded. If that fails, all stays as it was. Lobe and
-  /// dependence on the view cost next to nothing, other transfer about what make() costs.
-  Status choose(const LiveOptions& options);
+  /// Shows the asset otherwise; what that needs is uploaded. If that fails, all stays as it was.
+  /// Lobe and dependence on the view cost next to nothing, other transfer about what make() costs.
+  Status choose(const shade::Showing& showing);
   /// What mirrors and the background show, as it stands before worldFromEnvironment. Rotations of
   /// an image that was shown last, and up to 16 discs beside it, cost next to nothing: they can
   /// change every frame. A new image is uploaded with the next frame that shows it.
@@ -88,7 +79,7 @@ class LiveRenderer {
   /// window) of that size. Equals tone::toneMap and sRGB coding to 1/255.
   Status show(unsigned framebuffer, float exposureEv, tone::Curve curve) const;
   /// The same mean, read back: linear radiance, coverage in alpha unless there is a background.
-  /// As shade::picture gives it.
+  /// As reference::relitPicture gives it.
   Result<image::Image> picture() const;
 
  private:

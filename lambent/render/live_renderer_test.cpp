@@ -8,23 +8,23 @@
 #include <Eigen/LU>
 
 #include "lambent/radiometry/srgb.h"
+#include "lambent/reference/relit_picture.h"
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/test_agreement.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/rotation.h"
-#include "lambent/shade/picture.h"
 #include "lambent/shade/test_assets.h"
 #include "lambent/shade/test_patches.h"
 
 namespace lambent::render {
 namespace {
 
-using encode::Encoding;
 using image::Image;
-using shade::MacroTransport;
-using shade::TransferChoice;
 using shade::test::cameraAt;
+using transfer::Encoding;
+using transfer::Kind;
+using transfer::Numbers;
 
 constexpr int kWidth = 128, kHeight = 96;
 const scene::Camera kCamera = cameraAt(Vec3(1.5f, 1.8f, 5.0f), Vec3::Zero());
@@ -59,18 +59,19 @@ asset::Asset everything() {
                           scene::translated(scene::uvSphere(0.6f, 24, 12), Vec3(0.1f, 0.7f, -1)),
                           shade::test::bumpyRtt(16, 12, 4, 5), patch);
   // Interreflected transfer, here: of everything shadowed the double.
-  asset.transfer.kind = transport::TransferKind::Interreflected;
-  for (encode::EncodedMesh& mesh : asset.transfer.meshes) {
-    mesh.shadowed.channels = mesh.channels;
-    mesh.shadowed.matrixChannels = mesh.matrixChannels;
-    const auto half = [](const encode::Numbers& numbers) {
-      if (numbers.empty()) return numbers;
-      std::vector<float> values = encode::decode(numbers);
-      for (float& value : values) value *= 0.5f;
-      return encode::encode(values, numbers.encoding, numbers.block);
-    };
-    mesh.shadowed.vectors = half(mesh.vectors);
-    mesh.shadowed.matrices = half(mesh.matrices);
+  asset.transfer.kind = Kind::Interreflected;
+  const auto half = [](Numbers& numbers) {
+    std::vector<float> values = transfer::decode(numbers);
+    for (float& value : values) value *= 0.5f;
+    numbers = transfer::encode(values, numbers.encoding, numbers.block);
+  };
+  for (transfer::EncodedMesh& mesh : asset.transfer.meshes) {
+    auto* surface = std::get_if<transfer::Surface<Numbers>>(&mesh);
+    if (!surface) continue;
+    auto& shadowed = *surface->responses.find(Kind::Shadowed);
+    surface->responses.set(Kind::Interreflected, shadowed);
+    if (shadowed.diffuse) half(shadowed.diffuse->vectors.numbers);
+    if (shadowed.glossy) half(shadowed.glossy->matrices.numbers);
   }
   return asset;
 }
@@ -81,8 +82,8 @@ struct Scenery {
 };
 
 /// The picture of the CPU: all that moves reduced to the asset's frame.
-Result<Image> onCpu(const asset::Asset& asset, const Scenery& scenery, const LiveOptions& options,
-                    const LiveView& view, int samples) {
+Result<Image> onCpu(const asset::Asset& asset, const Scenery& scenery,
+                    const shade::Showing& showing, const LiveView& view, int samples) {
   const Mat3 assetFromWorld = view.worldFromAsset.topLeftCorner<3, 3>().transpose();
   scene::Camera camera = view.camera;
   camera.worldFromCamera = Mat4(view.worldFromAsset.inverse()) * view.camera.worldFromCamera;
@@ -91,12 +92,10 @@ Result<Image> onCpu(const asset::Asset& asset, const Scenery& scenery, const Liv
   picture.height = kHeight;
   picture.samples = samples;
   picture.background = view.background;
-  picture.transfer = options.transfer;
-  picture.lobeExponent = options.lobeExponent;
-  picture.biScale = options.biScale;
-  return shade::picture(asset, sh::rotate(assetFromWorld, scenery.worldLight),
-                        scenery.environment.rotated(assetFromWorld * view.worldFromEnvironment),
-                        camera, picture);
+  picture.showing = showing;
+  return reference::relitPicture(
+      asset, sh::rotate(assetFromWorld, scenery.worldLight),
+      scenery.environment.rotated(assetFromWorld * view.worldFromEnvironment), camera, picture);
 }
 
 Result<Image> live(LiveRenderer& renderer, const LiveView& view, int samples) {
@@ -113,14 +112,14 @@ class Live : public testing::Test {
 
   /// Draws, and compares with the CPU.
   void expectAsOnCpu(const std::string& name, LiveRenderer& renderer, const asset::Asset& asset,
-                     const Scenery& scenery, const LiveOptions& options, const LiveView& view,
+                     const Scenery& scenery, const shade::Showing& showing, const LiveView& view,
                      const test::Agreement& agreement = {}) {
     constexpr int kSamples = 2;
     const Mat3 assetFromWorld = view.worldFromAsset.topLeftCorner<3, 3>().transpose();
     renderer.setLight(sh::rotate(assetFromWorld, scenery.worldLight));
     const Result<Image> gl = live(renderer, view, kSamples);
     ASSERT_TRUE(gl) << gl.error().message;
-    const Result<Image> cpu = onCpu(asset, scenery, options, view, kSamples);
+    const Result<Image> cpu = onCpu(asset, scenery, showing, view, kSamples);
     ASSERT_TRUE(cpu) << cpu.error().message;
     test::expectSame("live-" + name, *cpu, *gl, agreement);
   }
@@ -128,9 +127,9 @@ class Live : public testing::Test {
   Result<GlContext> context_ = GlContext::create();
 };
 
-LiveRenderer rendererOf(const asset::Asset& asset, const LiveOptions& options = {},
+LiveRenderer rendererOf(const asset::Asset& asset, const shade::Showing& showing = {},
                         std::size_t largestBlock = std::size_t(1) << 27) {
-  Result<LiveRenderer> made = LiveRenderer::make(asset, options, largestBlock);
+  Result<LiveRenderer> made = LiveRenderer::make(asset, showing, largestBlock);
   if (!made) ADD_FAILURE() << made.error().message;
   EXPECT_TRUE(made->resize(kWidth, kHeight));
   return std::move(*made);
@@ -158,7 +157,7 @@ TEST_F(Live, EqualsTheCpuWhateverMoves) {
 TEST_F(Live, EqualsTheCpuAfterEverySwitch) {
   const asset::Asset asset = everything();
   Scenery scenery;
-  LiveOptions options;
+  shade::Showing options;
   LiveRenderer renderer = rendererOf(asset, options);
   ASSERT_TRUE(renderer.setEnvironment(scenery.environment));
   LiveView view;
@@ -168,22 +167,22 @@ TEST_F(Live, EqualsTheCpuAfterEverySwitch) {
     ASSERT_TRUE(chosen) << chosen.error().message;
     expectAsOnCpu("switch-" + name, renderer, asset, scenery, options, view, agreement);
   };
-  for (const TransferChoice choice : {TransferChoice::Shadowed, TransferChoice::Unshadowed,
-                                      TransferChoice::Interreflected, TransferChoice::Best}) {
-    options.transfer = choice;
-    expectSwitched(std::string(nameOf(choice)));
+  for (const std::optional<Kind> kind :
+       {std::optional(Kind::Shadowed), std::optional(Kind::Unshadowed),
+        std::optional(Kind::Interreflected), std::optional<Kind>()}) {
+    options = shade::Showing::of(kind);
+    expectSwitched(std::string(shade::choiceName(kind)));
   }
-  for (const MacroTransport macro :
-       {MacroTransport::Off, MacroTransport::Shadowed, MacroTransport::Interreflected}) {
-    options.biScale.macro = macro;
+  for (const Kind macro : transfer::kKinds) {
+    options.mesoStructure = macro;
     expectSwitched("macro-" + std::to_string(int(macro)));
   }
-  options.biScale.macro.reset();
-  options.biScale.viewDependent = false;
+  options.mesoStructure.reset();
+  options.viewDependent = false;
   expectSwitched("pasted");
-  options.biScale.filter = false;
+  options.filter = false;
   expectSwitched("nearest");
-  options.biScale = {};
+  options.viewDependent = options.filter = true;
   options.lobeExponent = 60.0f;
   expectSwitched("lobe");
   options = {};
@@ -214,8 +213,8 @@ TEST_F(Live, EqualsTheCpuThroughEveryCamera) {
 TEST_F(Live, FallsIntoBlocksWithoutSeams) {
   const asset::Asset asset = everything();
   const Scenery scenery;
-  LiveOptions options;
-  options.biScale.macro = MacroTransport::Off;
+  shade::Showing options;
+  options.mesoStructure = Kind::Unshadowed;
   LiveRenderer renderer = rendererOf(asset, options, 24'000);
   ASSERT_TRUE(renderer.setEnvironment(scenery.environment));
   LiveView view;
@@ -234,9 +233,11 @@ struct TwoLights {
     for (float& value : second.values) value *= 0.7f;
     blending.samples = {Vec3(-1, 0, 0), Vec3(0, 9, 0),
                         Vec3(1, 0, 0)};  // the middle one is not used
-    for (const encode::EncodedMesh& mesh : asset.transfer.meshes) {
+    for (const transfer::EncodedMesh& mesh : asset.transfer.meshes) {
       auto& weights = blending.meshes.emplace_back();
-      for (const Vec3& p : mesh.positions) {
+      const transfer::Receivers* receivers = transfer::receiversOf(mesh);
+      if (!receivers) continue;
+      for (const Vec3& p : receivers->positions) {
         const float share = std::clamp(0.5f + 0.3f * p.x(), 0.0f, 1.0f);
         weights.push_back({{2, 0, 0, 1}, {share, 0.4f * (1 - share), 0.6f * (1 - share), 0.0f}});
       }
@@ -256,23 +257,23 @@ struct TwoLights {
 /// holds their share: M_p (s a + (1 − s) b) = (s M_p) a + ((1 − s) M_p) b.
 asset::Asset scaledByShare(asset::Asset asset, const capture::Blending& blending, bool ofSecond) {
   for (std::size_t m = 0; m < asset.transfer.meshes.size(); ++m) {
-    encode::EncodedMesh& mesh = asset.transfer.meshes[m];
-    const auto scale = [&](encode::Numbers& numbers) {
-      if (numbers.empty()) return;
-      std::vector<float> values = encode::decode(numbers);
-      const std::size_t each = values.size() / mesh.receiverCount();
+    const transfer::Receivers* receivers = transfer::receiversOf(asset.transfer.meshes[m]);
+    const auto scale = [&](Numbers& numbers) {
+      std::vector<float> values = transfer::decode(numbers);
+      const std::size_t each = values.size() / receivers->size();
       for (std::size_t i = 0; i < values.size(); ++i) {
         const float share = blending.meshes[m][i / each].weight[0];
         values[i] *= ofSecond ? share : 1.0f - share;
       }
-      numbers = encode::encode(values, Encoding::Float32);
+      numbers = transfer::encode(values, Encoding::Float32);
     };
-    scale(mesh.vectors);
-    scale(mesh.matrices);
-    if (mesh.biScale) {
-      scale(mesh.biScale->shadowed);
-      scale(mesh.biScale->interreflected);
-    }
+    if (auto* surface = std::get_if<transfer::Surface<Numbers>>(&asset.transfer.meshes[m]))
+      surface->responses.each([&](Kind, auto& response) {
+        if (response.diffuse) scale(response.diffuse->vectors.numbers);
+        if (response.glossy) scale(response.glossy->matrices.numbers);
+      });
+    if (auto* biScale = std::get_if<transfer::BiScale<Numbers>>(&asset.transfer.meshes[m]))
+      biScale->matrices.each([&](Kind, auto& matrices) { scale(matrices.numbers); });
   }
   return asset;
 }
@@ -289,10 +290,10 @@ TEST_F(Live, BlendsLightsAsTheCpuDoes) {
   picture.height = kHeight;
   picture.samples = 1;
   const light::Environment black;
-  const auto one = shade::picture(scaledByShare(asset, lights.blending, false), lights.first, black,
-                                  kCamera, picture);
-  const auto other = shade::picture(scaledByShare(asset, lights.blending, true), lights.second,
-                                    black, kCamera, picture);
+  const auto one = reference::relitPicture(scaledByShare(asset, lights.blending, false),
+                                           lights.first, black, kCamera, picture);
+  const auto other = reference::relitPicture(scaledByShare(asset, lights.blending, true),
+                                             lights.second, black, kCamera, picture);
   ASSERT_TRUE(one && other);
   Image cpu = *one;
   for (std::size_t i = 0; i < cpu.pixels.size(); ++i) cpu.pixels[i] += other->pixels[i];
@@ -312,8 +313,8 @@ TEST_F(Live, BlendsLightsAsTheCpuDoes) {
     // Ringing is cut off before the two are added here, and after there.
     test::expectSame("live-field", cpu, *gl, {0, 0.1, 0.3});
     // A switch keeps the field, and one light sets it aside.
-    LiveOptions options;
-    options.transfer = TransferChoice::Unshadowed;
+    shade::Showing options;
+    options = shade::Showing::of(Kind::Unshadowed);
     ASSERT_TRUE(renderer.choose(options));
     ASSERT_TRUE(live(renderer, view, 1));
     ASSERT_TRUE(renderer.choose({}));
@@ -322,7 +323,7 @@ TEST_F(Live, BlendsLightsAsTheCpuDoes) {
     test::expectSame("live-field-again", cpu, *gl, {0, 0.1, 0.3});
     renderer.setLight(lights.first);
     picture.background = false;
-    const auto plain = shade::picture(asset, lights.first, black, kCamera, picture);
+    const auto plain = reference::relitPicture(asset, lights.first, black, kCamera, picture);
     gl = live(renderer, view, 1);
     ASSERT_TRUE(plain && gl);
     test::expectSame("live-field-aside", *plain, *gl);
@@ -349,7 +350,7 @@ TEST_F(Live, SaysWhatDoesNotFit) {
   s = renderer.add(view);
   ASSERT_FALSE(s);
   EXPECT_NE(s.error().message.find("scaled"), std::string::npos);
-  LiveOptions options;
+  shade::Showing options;
   options.lobeExponent = -1.0f;
   EXPECT_FALSE(renderer.choose(options));
   EXPECT_FALSE(renderer.picture());
@@ -512,9 +513,9 @@ TEST_F(Live, LeavesNoObjectsBehind) {
   for (int round = 0; round < 50; ++round) {
     LiveRenderer renderer = rendererOf(asset);
     ASSERT_TRUE(renderer.setLightField(lights.blending, buffer.name(), 5));
-    LiveOptions options;
-    options.transfer = round % 2 ? TransferChoice::Unshadowed : TransferChoice::Best;
-    options.biScale.filter = round % 2;
+    shade::Showing options;
+    if (round % 2) options = shade::Showing::of(Kind::Unshadowed);
+    options.filter = round % 2;
     ASSERT_TRUE(renderer.choose(options));
     ASSERT_TRUE(renderer.add(view));
     ASSERT_TRUE(renderer.picture());

@@ -1,7 +1,8 @@
 // Run-time rendering of radiance transfer (sloan2002precomputed §6) by OpenGL: a compute pass
 // applies transfer vectors and matrices to the light; the surfaces are then drawn once for each
-// sub-sample, shifted so that a pixel's centre falls on the place that shade::picture shoots its
-// ray through, and added up. So every sub-sample of every pixel has its counterpart on the CPU.
+// sub-sample, shifted so that a pixel's centre falls on the place that reference::relitPicture
+// shoots its ray through, and added up. So every sub-sample of every pixel has its counterpart on
+// the CPU.
 
 #include "lambent/render/renderer.h"
 
@@ -69,9 +70,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   GlSceneOptions sceneOptions;
   sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
   sceneOptions.largestTexture = limits.largestTexture;
-  sceneOptions.lobeExponent = options.lobeExponent;
-  sceneOptions.biScale = options.biScale;
-  sceneOptions.transfer = options.transfer;
+  sceneOptions.showing = options.showing;
   Result<GlScene> scene = GlScene::makeLit(asset, light, sceneOptions);
   if (!scene) return scene.error();
   GlEnvironment inMirrors;

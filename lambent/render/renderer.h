@@ -5,7 +5,13 @@
 #include <cstddef>
 #include <memory>
 
-#include "lambent/shade/picture.h"
+#include "lambent/asset/asset.h"
+#include "lambent/image/image.h"
+#include "lambent/light/environment.h"
+#include "lambent/report/progress.h"
+#include "lambent/report/result.h"
+#include "lambent/scene/camera.h"
+#include "lambent/shade/picture_options.h"
 
 namespace lambent::render {
 
@@ -29,7 +35,7 @@ class Renderer {
   /// Draws one sample a pixel at its centre, and returns when the frame is done. It stays on the
   /// GPU: nothing is read back.
   Status drawFrame(const scene::Camera& camera);
-  /// As shade::picture.
+  /// As reference::relitPicture.
   Result<image::Image> picture(const scene::Camera& camera, const Progress& progress = {});
 
  private:

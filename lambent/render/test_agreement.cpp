@@ -8,6 +8,7 @@
 
 #include "lambent/image/io.h"
 #include "lambent/radiometry/srgb.h"
+#include "lambent/reference/relit_picture.h"
 #include "lambent/render/gl_picture_in_blocks.h"
 #include "lambent/shade/test_assets.h"
 #include "lambent/tone/tone_curve.h"
@@ -71,7 +72,7 @@ void expectAgreement(const std::string& name, const asset::Asset& asset,
                      const Agreement& agreement) {
   const light::Environment sky = shade::test::sky();
   const sh::RgbCoefficients light = sky.project(5);
-  const Result<Image> cpu = shade::picture(asset, light, sky, camera, options);
+  const Result<Image> cpu = reference::relitPicture(asset, light, sky, camera, options);
   ASSERT_TRUE(cpu) << cpu.error().message;
   const Result<Image> gl =
       pictureInBlocks(asset, light, sky, camera, options, agreement.largestBlock);

@@ -4,8 +4,10 @@
 #include <string>
 
 #include "lambent/asset/asset.h"
+#include "lambent/image/image.h"
+#include "lambent/light/environment.h"
 #include "lambent/scene/camera.h"
-#include "lambent/shade/picture.h"
+#include "lambent/shade/picture_options.h"
 
 namespace lambent::render::test {
 

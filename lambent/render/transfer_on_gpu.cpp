@@ -11,12 +11,12 @@
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/macro_transport.h"
+#include "lambent/shade/unshadowed.h"
 
 namespace lambent::render {
 
-using encode::EncodedMesh;
-using encode::Encoding;
-using encode::Numbers;
+using transfer::Encoding;
+using transfer::Numbers;
 
 std::string numbersDefine(Encoding encoding) {
   const char* kind = encoding == Encoding::Snorm8 ? "2" : encoding == Encoding::Float16 ? "1" : "0";
@@ -29,13 +29,9 @@ constexpr std::size_t kStreamedBytes = std::size_t(32) << 20;  // of transfer on
 constexpr std::size_t kBlendedBytes = std::size_t(16) << 20;   // of a field's light at receivers
 constexpr std::size_t kMostInvocations = 65535 * 64;           // every GL takes as many work groups
 
-std::size_t bytesOf(Encoding encoding) {
-  return encoding == Encoding::Snorm8 ? 1 : encoding == Encoding::Float16 ? 2 : 4;
-}
-
 /// Words of one row of `columns` numbers.
 std::size_t rowWords(Encoding encoding, int columns) {
-  return (std::size_t(columns) * bytesOf(encoding) + 3) / 4;
+  return (std::size_t(columns) * transfer::bytesPerNumber(encoding) + 3) / 4;
 }
 
 /// The rows of the named receivers, each filled up to a whole word.
@@ -85,7 +81,7 @@ Relit::Chunk upload(const Numbers& numbers, std::size_t rows, std::size_t column
 /// empty otherwise.
 Numbers asFloatsIfScalesDiffer(const Numbers& numbers, std::size_t columns) {
   if (numbers.encoding != Encoding::Snorm8 || numbers.block % columns == 0) return {};
-  return encode::encode(encode::decode(numbers), Encoding::Float32);
+  return transfer::encode(transfer::decode(numbers), Encoding::Float32);
 }
 
 /// Coefficients of a light as opengl/numbers.glsl reads them: filled up to four.
@@ -258,72 +254,78 @@ Status TransferOnGpu::multiply(Relit& relit, const Numbers& transfer) {
   return Status::ok();
 }
 
-Result<Relit> TransferOnGpu::diffuse(const EncodedMesh& mesh,
+Result<Relit> TransferOnGpu::diffuse(const transfer::Vectors<Numbers>& vectors,
                                      std::vector<std::uint32_t> receivers) {
   Relit relit;
   relit.receivers = std::move(receivers);
   relit.shape.kind = ProductShape::Kind::Vectors;
-  relit.shape.channels = mesh.channels;
-  relit.shape.columns = sh::coefficientCount(mesh.bands);
-  if (Status s = multiply(relit, mesh.vectors); !s) return s.error();
+  relit.shape.channels = vectors.channels;
+  relit.shape.columns = sh::coefficientCount(vectors.bands);
+  if (Status s = multiply(relit, vectors.numbers); !s) return s.error();
   return relit;
 }
 
-Result<Relit> TransferOnGpu::lobe(const EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
+Result<Relit> TransferOnGpu::lobe(const transfer::Glossy<Numbers>& glossy,
+                                  std::vector<std::uint32_t> receivers,
                                   std::optional<float> lobeExponent) {
+  const transfer::Matrices<Numbers>& matrices = glossy.matrices;
   Relit relit;
   relit.receivers = std::move(receivers);
-  const int rows = sh::coefficientCount(mesh.outBands);
   relit.shape.kind = ProductShape::Kind::Matrices;
-  relit.shape.channels = mesh.matrixChannels;
-  relit.shape.rows = relit.shape.rowsUsed = rows;
-  relit.shape.columns = sh::coefficientCount(mesh.inBands);
-  relit.shape.stride = shade::rttStride(mesh.outBands);
-  relit.shape.reflectance = mesh.glossy;
-  setLobe(relit, mesh, lobeExponent);
-  if (Status s = multiply(relit, mesh.matrices); !s) return s.error();
+  relit.shape.channels = matrices.channels;
+  relit.shape.rows = relit.shape.rowsUsed = sh::coefficientCount(matrices.outBands);
+  relit.shape.columns = sh::coefficientCount(matrices.inBands);
+  relit.shape.stride = shade::rttStride(matrices.outBands);
+  relit.shape.reflectance = glossy.lobe.reflectance;
+  setLobe(relit, matrices.outBands, lobeExponent.value_or(glossy.lobe.exponent));
+  if (Status s = multiply(relit, matrices.numbers); !s) return s.error();
   return relit;
 }
 
-void TransferOnGpu::setLobe(Relit& relit, const EncodedMesh& mesh,
-                            std::optional<float> lobeExponent) {
-  relit.factors =
-      makeBuffer(shade::lobeFactors(mesh.outBands, lobeExponent.value_or(mesh.lobeExponent)));
+void TransferOnGpu::setLobe(Relit& relit, int outBands, float exponent) {
+  relit.factors = makeBuffer(shade::lobeFactors(outBands, exponent));
 }
 
-Result<Relit> TransferOnGpu::incident(const EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
-                                      int bands, std::span<const float> factors,
-                                      std::optional<shade::MacroTransport> macro) {
-  using shade::MacroTransport;
-  const encode::EncodedBiScale& biScale = *mesh.biScale;
+/// Lit once: turning the light costs less than making the matrices that would.
+Relit TransferOnGpu::turned(const transfer::BiScale<Numbers>& biScale,
+                            const std::vector<std::uint32_t>& receivers, int bands,
+                            std::span<const float> factors) const {
   const int count = sh::coefficientCount(bands), stride = shade::rttStride(bands);
-  const MacroTransport chosen = macro.value_or(shade::bestOf(biScale));
+  const std::vector<float> light = shade::inRttLayout(
+      shade::incidentLight(biScale, lightOnCpu_, bands, transfer::Kind::Unshadowed), bands);
+  std::vector<float> product(receivers.size() * std::size_t(stride));
+  for (std::size_t p = 0; p < receivers.size(); ++p)
+    for (int i = 0; i < 3 * count; ++i)
+      product[p * stride + i] = factors[i / 3] * light[receivers[p] * std::size_t(stride) + i];
   Relit relit;
-  relit.receivers = std::move(receivers);
   relit.shape.kind = ProductShape::Kind::Matrices;
   relit.shape.stride = stride;
-  if (chosen == MacroTransport::Off) {
-    // Lit once: turning the light costs less than making the matrices that would.
-    assert(residence_ == Residence::Stream);
-    const std::vector<float> light =
-        shade::inRttLayout(shade::incidentLight(mesh, lightOnCpu_, bands, chosen), bands);
-    std::vector<float> product(relit.receivers.size() * std::size_t(stride));
-    for (std::size_t p = 0; p < relit.receivers.size(); ++p)
-      for (int i = 0; i < 3 * count; ++i)
-        product[p * stride + i] =
-            factors[i / 3] * light[relit.receivers[p] * std::size_t(stride) + i];
-    relit.product = makeBuffer(product);
-    relit.receivers = {};
-    return relit;
+  relit.product = makeBuffer(product);
+  return relit;
+}
+
+Result<Relit> TransferOnGpu::incident(const transfer::BiScale<Numbers>& biScale,
+                                      std::vector<std::uint32_t> receivers, int bands,
+                                      std::span<const float> factors, transfer::Kind kind) {
+  const transfer::Matrices<Numbers>* matrices = biScale.matrices.find(kind);
+  if (!matrices && residence_ == Residence::Stream)
+    return turned(biScale, receivers, bands, factors);
+  // Relit again and again, rotations into the tangent frames stand for what nothing hides: once
+  // made, a new light costs no CPU time.
+  transfer::Matrices<Numbers> rotations;
+  if (!matrices) {
+    rotations = shade::rotationsIntoFrames(biScale, bands);
+    matrices = &rotations;
   }
-  const bool shadowed = chosen == MacroTransport::Shadowed;
-  const int n = sh::coefficientCount(biScale.bands);
-  relit.shape.channels = shadowed ? 1 : biScale.channels;
-  relit.shape.rows = relit.shape.columns = n;
-  relit.shape.rowsUsed = std::min(n, count);
+  Relit relit;
+  relit.receivers = std::move(receivers);
+  relit.shape.kind = ProductShape::Kind::Matrices;
+  relit.shape.stride = shade::rttStride(bands);
+  relit.shape.channels = matrices->channels;
+  relit.shape.rows = relit.shape.columns = sh::coefficientCount(matrices->inBands);
+  relit.shape.rowsUsed = std::min(relit.shape.rows, sh::coefficientCount(bands));
   relit.factors = makeBuffer(factors.size_bytes(), factors.data());
-  if (Status s = multiply(relit, shadowed ? biScale.shadowed : biScale.interreflected); !s)
-    return s.error();
+  if (Status s = multiply(relit, matrices->numbers); !s) return s.error();
   return relit;
 }
 

@@ -12,21 +12,20 @@
 #include <vector>
 
 #include "lambent/capture/blending.h"
-#include "lambent/encode/encoded_field.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/sh/coefficients.h"
-#include "lambent/shade/bi_scale_options.h"
 #include "lambent/shade/rtt_pyramid.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::render {
 
 /// The line that tells shaders how numbers are stored (opengl/numbers.glsl).
-std::string numbersDefine(encode::Encoding encoding);
+std::string numbersDefine(transfer::Encoding encoding);
 
 /// Matrices or vectors as they are stored, and what becomes of their products with the light.
 struct ProductShape {
   enum class Kind { Vectors, Matrices } kind = Kind::Vectors;
-  encode::Encoding encoding = encode::Encoding::Float32;
+  transfer::Encoding encoding = transfer::Encoding::Float32;
   int channels = 1, rows = 1, columns = 0;
   int rowsUsed = 1, stride = 3;  ///< numbers of a receiver in the output
   Rgb reflectance = Rgb::Ones();
@@ -69,30 +68,31 @@ class TransferOnGpu {
   static Status setBlend(Relit& relit, std::span<const capture::BlendWeights> weights);
 
   /// Exit radiance M · L of the named receivers of a mesh: [receiver][3].
-  Result<Relit> diffuse(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers);
+  Result<Relit> diffuse(const transfer::Vectors<transfer::Numbers>& vectors,
+                        std::vector<std::uint32_t> receivers);
   /// α_i G_i (M L)_i k: [receiver][rttStride(outBands)], coefficient after coefficient, each R, G,
   /// B, filled up with zeros.
-  Result<Relit> lobe(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
-                     std::optional<float> lobeExponent);
-  /// Another lobe for what lobe() made.
-  static void setLobe(Relit& relit, const encode::EncodedMesh& mesh,
-                      std::optional<float> lobeExponent);
-  /// Light that arrives at the meso-structure of the named receivers of a bi-scale mesh, times a
-  /// factor for each of bands² coefficients: [receiver][rttStride(bands)], laid out as
-  /// shade::RttPyramid's numbers are. `macro` must be held; none: the best that is. Without macro
-  /// transport it is the light turned into the tangent frames; a mesh whose transfer is kept must
-  /// hold these rotations as its shadowed matrices then (shade::chosenTransfer).
-  Result<Relit> incident(const encode::EncodedMesh& mesh, std::vector<std::uint32_t> receivers,
-                         int bands, std::span<const float> factors,
-                         std::optional<shade::MacroTransport> macro);
+  Result<Relit> lobe(const transfer::Glossy<transfer::Numbers>& glossy,
+                     std::vector<std::uint32_t> receivers, std::optional<float> lobeExponent);
+  /// Another lobe for what lobe() made of matrices of so many bands.
+  static void setLobe(Relit& relit, int outBands, float exponent);
+  /// Light that arrives at the meso-structure of the named receivers under a kind (which must be
+  /// held, or Unshadowed), times a factor for each of bands² coefficients:
+  /// [receiver][rttStride(bands)], laid out as shade::RttPyramid's numbers are.
+  Result<Relit> incident(const transfer::BiScale<transfer::Numbers>& biScale,
+                         std::vector<std::uint32_t> receivers, int bands,
+                         std::span<const float> factors, transfer::Kind kind);
 
   /// Makes the products anew: the light, or the lobe, has changed.
   Status relight(const Relit& relit);
 
  private:
-  Status multiply(Relit& relit, const encode::Numbers& transfer);
+  Status multiply(Relit& relit, const transfer::Numbers& transfer);
+  Relit turned(const transfer::BiScale<transfer::Numbers>& biScale,
+               const std::vector<std::uint32_t>& receivers, int bands,
+               std::span<const float> factors) const;
   Status dispatch(const Relit& relit, const Relit::Chunk& chunk);
-  Result<const Program*> program(ProductShape::Kind kind, encode::Encoding encoding);
+  Result<const Program*> program(ProductShape::Kind kind, transfer::Encoding encoding);
 
   std::size_t largestBlock_;
   Residence residence_;
@@ -103,7 +103,8 @@ class TransferOnGpu {
   Buffer blended_;  ///< the field at the receivers of one dispatch: [receiver][coefficient][3]
   std::size_t blendedBytes_ = 0;
   std::optional<Program> blend_;
-  std::map<std::tuple<ProductShape::Kind, encode::Encoding, bool>, Program> programs_;  ///< … field
+  std::map<std::tuple<ProductShape::Kind, transfer::Encoding, bool>, Program>
+      programs_;  ///< … field
 };
 
 /// Bytes that lobe() makes for each receiver.

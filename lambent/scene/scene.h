@@ -19,9 +19,9 @@ namespace lambent::scene {
 ///  - diffuse: exit radiance ρ/π · irradiance.
 ///  - glossy:  exit radiance k · ∫ L(s) G(s, R) ds over the hemisphere of the normal, with R the
 ///             view direction mirrored about the normal and G the Phong-like lobe
-///             (r+1)/2π · max(0, s·R)^r of unit integral (Sloan 2002 §4.2).
+///             (r+1)/2π · max(0, s·R)^r of unit integral (sloan2002precomputed §4.2).
 ///  - mirror:  a perfect reflection. A surface with any mirror reflectance is a mirror and nothing
-///             else: it connects paths and records no transfer (Sloan 2002 §5).
+///             else: it connects paths and records no transfer (sloan2002precomputed §5).
 /// Besides, its front may emit light of its own, the same radiance everywhere and in all
 /// directions: the path tracer and captured light know of it, a bake leaves it out.
 struct Material {

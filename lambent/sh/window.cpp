@@ -1,7 +1,6 @@
 // This work is based on:
 // - sloan2002precomputed, sloan2008stupid: "Windowing", the Hann and Lanczos windows, and
-// attenuation
-//   by the squared Laplacian, w_l = 1/(1 + λ l²(l+1)²).
+//   attenuation by the squared Laplacian, w_l = 1/(1 + λ l²(l+1)²).
 //
 // For the least λ that leaves no negative radiance: the condition is solved on a grid of
 // directions; then the true minima near its lowest points join the grid, until nothing negative is

@@ -16,7 +16,7 @@ std::vector<double> lanczos(int bands, double width);  ///< sin(πl/w)/(πl/w), 
 void applyWindow(const std::vector<double>& window, RgbCoefficients& f);
 
 /// The least attenuation of the family 1/(1+λ l²(l+1)²) that leaves the reconstructed radiance
-/// non-negative in every direction (Sloan 2008, "Stupid SH tricks", windowing by the squared
+/// non-negative in every direction (sloan2008stupid, windowing by the squared
 /// Laplacian, with λ found by search). Returns the window; λ = 0, all ones, if f is non-negative.
 std::vector<double> minimalRinging(const RgbCoefficients& f);
 

@@ -1,8 +1,8 @@
 // Functions that are symmetric about an axis: lobes, discs, hemispheres, phase functions. A zonal
 // function h(cos θ) is kept as its Legendre moments ĥ_l = 2π ∫ h(t) P_l(t) dt, l = 0 … n−1, which
 // are what convolution multiplies by: (h * f)_lm = ĥ_l f_lm. They relate to the projection
-// coefficients h_l0 (Sloan 2002 eq. 6) by ĥ_l = √(4π/(2l+1)) h_l0; ĥ_l is Ramamoorthi's Â_l
-// (2001 eq. 6) and the product α_l G_l of Sloan 2002.
+// coefficients h_l0 (sloan2002precomputed eq. 6) by ĥ_l = √(4π/(2l+1)) h_l0; ĥ_l is
+// the Â_l of ramamoorthi2001efficient (eq. 6) and the product α_l G_l of sloan2002precomputed.
 #pragma once
 
 #include <functional>

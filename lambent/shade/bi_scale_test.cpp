@@ -5,11 +5,11 @@
 
 #include "lambent/image/compare.h"
 #include "lambent/math/directions.h"
+#include "lambent/reference/relit_picture.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/rotation.h"
-#include "lambent/shade/check_bi_scale.h"
 #include "lambent/shade/macro_transport.h"
-#include "lambent/shade/picture.h"
+#include "lambent/shade/picture_frame.h"
 #include "lambent/shade/shade.h"
 #include "lambent/shade/test_assets.h"
 #include "lambent/shade/test_patches.h"
@@ -17,9 +17,19 @@
 namespace lambent::shade {
 namespace {
 
-using encode::Encoding;
+using reference::relitPicture;
 using test::addPatched;
 using test::SpreadOptions;
+using transfer::Encoding;
+using transfer::Kind;
+using transfer::Numbers;
+using BiScale = transfer::BiScale<Numbers>;
+
+ReceiverView seenFrom(const Vec3& eye) {
+  ReceiverView view;
+  view.eye = eye;
+  return view;
+}
 
 sh::RgbCoefficients uniformLight(int bands) {
   sh::RgbCoefficients light(bands);
@@ -49,7 +59,7 @@ TEST(BiScale, AFlatPatchIsDiffuseTransfer) {
       options.tangent = tangent;
       addPatched(patched, test::sphere(Vec3::Zero(), 1.0f, 10),
                  test::flatRtt(4, 3, 3, 5, Rgb::Constant(0.8f)), options);
-      const std::vector<Rgb> seen = exitRadiance(patched, 0, light, {Vec3(2, 3, 4), {}, {}});
+      const std::vector<Rgb> seen = exitRadiance(patched, 0, light, seenFrom(Vec3(2, 3, 4)));
       ASSERT_EQ(seen.size(), expected.size());
       for (std::size_t p = 0; p < seen.size(); ++p)
         EXPECT_LT((seen[p] - expected[p]).abs().maxCoeff(), 2e-5f) << bands << " bands, " << p;
@@ -70,15 +80,15 @@ TEST(BiScale, APictureOfAFlatPatchIsOneOfDiffuseTransfer) {
   picture48.samples = 4;
   const scene::Camera camera = test::cameraAt(Vec3(1, 2, 4), Vec3::Zero());
   const sh::RgbCoefficients light = unevenLight(5);
-  const auto a = picture(plain, light, {}, camera, picture48);
-  const auto b = picture(patched, light, {}, camera, picture48);
+  const auto a = relitPicture(plain, light, {}, camera, picture48);
+  const auto b = relitPicture(patched, light, {}, camera, picture48);
   ASSERT_TRUE(a && b);
   // Between vertices the light in their frames is interpolated, and not the radiance.
   EXPECT_LT(image::compare(b->pixels, a->pixels)->rmse, 2e-3);
 }
 
 /// A floor at the origin (normal +y) whose patch lies along `tangent`.
-asset::Asset floorOf(const meso::RadianceTransferTexture& rtt, SpreadOptions options) {
+asset::Asset floorOf(const transfer::SimulatedRtt& rtt, SpreadOptions options) {
   asset::Asset asset;
   addPatched(asset, test::floor(Vec3::Zero(), 1.0f), rtt, options);
   return asset;
@@ -95,17 +105,17 @@ TEST(BiScale, ReadsTheViewThatItIsSeenFrom) {
   const asset::Asset asset = floorOf(rtt, options);
   const Vec3 tangent = Vec3::UnitZ(), bitangent = Vec3::UnitX(), normal = Vec3::UnitY();
   const sh::RgbCoefficients light = uniformLight(1);
-  const Vec3 at = asset.transfer.meshes[0].positions[0];
+  const Vec3 at = transfer::receiversOf(asset.transfer.meshes[0])->positions[0];
   for (int vy = 0; vy < views; ++vy)
     for (int vx = 0; vx < views; ++vx) {
       const Vec3 d = math::hemisphereFromSquare(Vec2((vx + 0.5f) / views, (vy + 0.5f) / views));
       const Vec3 eye = at + 7.0f * (d.x() * tangent + d.y() * bitangent + d.z() * normal);
-      const Rgb seen = exitRadiance(asset, 0, light, {eye, {}, {}})[0];
+      const Rgb seen = exitRadiance(asset, 0, light, seenFrom(eye))[0];
       EXPECT_NEAR(seen[0], float(vx), 1e-3f) << vx << ", " << vy;
       EXPECT_NEAR(seen[1], float(vy), 1e-3f) << vx << ", " << vy;
       EXPECT_NEAR(seen[2], 1.0f, 1e-5f);
-      View pasted{eye, {}, {}};
-      pasted.biScale.viewDependent = false;
+      ReceiverView pasted = seenFrom(eye);
+      pasted.showing.viewDependent = false;
       const Rgb centre = exitRadiance(asset, 0, light, pasted)[0];
       EXPECT_NEAR(centre[0], 3.5f, 1e-4f);
       EXPECT_NEAR(centre[1], 3.5f, 1e-4f);
@@ -116,11 +126,11 @@ TEST(BiScale, StaysAtTheHorizonBelowIt) {
   const auto rtt = test::paintedRtt(
       1, 1, 6, [](int, int, int vx, int vy) { return Rgb(float(vx), float(vy), 1.0f); });
   const asset::Asset asset = floorOf(rtt, {});
-  const Vec3 at = asset.transfer.meshes[0].positions[0];
-  const auto seenFrom = [&](const Vec3& direction) {
-    return exitRadiance(asset, 0, uniformLight(1), {Vec3(at + direction), {}, {}})[0];
+  const Vec3 at = transfer::receiversOf(asset.transfer.meshes[0])->positions[0];
+  const auto seenAlong = [&](const Vec3& direction) {
+    return exitRadiance(asset, 0, uniformLight(1), seenFrom(at + direction))[0];
   };
-  EXPECT_TRUE(seenFrom(Vec3(1, -0.2f, 0.4f)).isApprox(seenFrom(Vec3(1, 0, 0.4f)), 1e-4f));
+  EXPECT_TRUE(seenAlong(Vec3(1, -0.2f, 0.4f)).isApprox(seenAlong(Vec3(1, 0, 0.4f)), 1e-4f));
 }
 
 /// From above, +x to the right and −z upwards, one pixel for each of side×side squares of the
@@ -138,11 +148,11 @@ Result<image::Image> pictureFromAbove(const asset::Asset& asset, int side) {
   PictureOptions options;
   options.width = options.height = side;
   options.samples = 1;
-  options.biScale.filter = false;
-  return picture(asset, uniformLight(1), {}, fromAbove(), options);
+  options.showing.filter = false;
+  return relitPicture(asset, uniformLight(1), {}, fromAbove(), options);
 }
 
-meso::RadianceTransferTexture numbered(int width, int height) {
+transfer::SimulatedRtt numbered(int width, int height) {
   return test::paintedRtt(width, height, 1,
                           [](int x, int y, int, int) { return Rgb(float(x), float(y), 1.0f); });
 }
@@ -164,7 +174,7 @@ TEST(BiScale, RepeatsThePatchTheRightWayUp) {
 
 TEST(BiScale, ReadsThePlacesThatTheMapNames) {
   SpreadOptions options;
-  synthesis::IdMap map;
+  transfer::IdMap map;
   map.width = 4;
   map.height = 3;
   for (int y = 0; y < 3; ++y)
@@ -193,14 +203,14 @@ TEST(MacroTransport, IsTheStoredMatrices) {
       options.matrices = encoding;
       asset::Asset asset;
       addPatched(asset, test::sphere(Vec3::Zero(), 1.0f, 6), test::emptyRtt(1, 1, 1, 5), options);
-      const encode::EncodedMesh& mesh = asset.transfer.meshes[0];
+      const BiScale& mesh = std::get<BiScale>(asset.transfer.meshes[0]);
       const sh::RgbCoefficients light = unevenLight(4);
-      const auto off = incidentLight(mesh, light, 5, MacroTransport::Off);
-      const auto shadowed = incidentLight(mesh, light, 5, MacroTransport::Shadowed);
-      const auto best = incidentLight(mesh, light, 5, {});
-      EXPECT_EQ(best, incidentLight(mesh, light, 5, MacroTransport::Interreflected));
+      const auto off = incidentLight(mesh, light, 5, Kind::Unshadowed);
+      const auto shadowed = incidentLight(mesh, light, 5, Kind::Shadowed);
+      ASSERT_EQ(kindShown(asset.transfer.meshes[0], {}), Kind::Interreflected);
+      const auto best = incidentLight(mesh, light, 5, Kind::Interreflected);
       const float tolerance = encoding == Encoding::Snorm8 ? 0.03f : 2e-3f;
-      ASSERT_EQ(off.size(), mesh.receiverCount() * 3 * 25);
+      ASSERT_EQ(off.size(), mesh.receivers->size() * 3 * 25);
       for (std::size_t i = 0; i < off.size(); ++i) {
         ASSERT_NEAR(shadowed[i], 0.75f * off[i], tolerance) << i;
         if (i % 25 >= 16) {  // four bands of light
@@ -218,10 +228,10 @@ TEST(MacroTransport, OfFewerBandsThanTheTextureIsCutThere) {
   options.shadowedBands = 2;
   asset::Asset asset;
   addPatched(asset, test::sphere(Vec3::Zero(), 1.0f, 4), test::emptyRtt(1, 1, 1, 3), options);
-  const encode::EncodedMesh& mesh = asset.transfer.meshes[0];
-  const auto wide = incidentLight(mesh, unevenLight(5), 3, MacroTransport::Shadowed);
-  const auto off = incidentLight(mesh, unevenLight(5), 3, MacroTransport::Off);
-  const auto narrow = incidentLight(mesh, unevenLight(5), 1, MacroTransport::Shadowed);
+  const BiScale& mesh = std::get<BiScale>(asset.transfer.meshes[0]);
+  const auto wide = incidentLight(mesh, unevenLight(5), 3, Kind::Shadowed);
+  const auto off = incidentLight(mesh, unevenLight(5), 3, Kind::Unshadowed);
+  const auto narrow = incidentLight(mesh, unevenLight(5), 1, Kind::Shadowed);
   for (std::size_t v = 0; v < wide.size() / 9; ++v) {
     for (std::size_t i = 0; i < 9; ++i)
       ASSERT_NEAR(wide[v * 9 + i], i < 4 ? 0.75f * off[v * 9 + i] : 0.0f, 1e-4f);
@@ -243,8 +253,8 @@ TEST(BiScale, FilteringComesNearerToManySamples) {
     options64.width = 64;
     options64.height = 40;
     options64.samples = samples;
-    options64.biScale.filter = filter;
-    auto image = picture(asset, light, {}, camera, options64);
+    options64.showing.filter = filter;
+    auto image = relitPicture(asset, light, {}, camera, options64);
     EXPECT_TRUE(image);
     return std::pair(*image,
                      reference ? image::compare(image->pixels, reference->pixels)->rmse : 0.0);
@@ -266,10 +276,10 @@ TEST(BiScale, FiltersAMapAsItFiltersTextureCoordinates) {
   SpreadOptions options;
   options.tangent = Vec3::UnitX();
   options.tiles = Vec2(4, 4);  // over 2 m: the patch of 1 m at half its size
-  const meso::RadianceTransferTexture rtt = test::bumpyRtt(32, 32, 4, 3);
+  const transfer::SimulatedRtt rtt = test::bumpyRtt(32, 32, 4, 3);
   const asset::Asset plain = floorOf(rtt, options);
   options.scale = 0.5f;
-  synthesis::IdMap map;
+  transfer::IdMap map;
   map.width = map.height = 1024;
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
@@ -286,7 +296,7 @@ TEST(BiScale, FiltersAMapAsItFiltersTextureCoordinates) {
   picture48.samples = 1;
   const scene::Camera camera = test::cameraAt(Vec3(0.4f, 1.2f, 5.0f), Vec3::Zero());
   const auto shown = [&](const asset::Asset& asset) {
-    return picture(asset, unevenLight(3), {}, camera, picture48);
+    return relitPicture(asset, unevenLight(3), {}, camera, picture48);
   };
   const auto a = shown(plain), b = shown(mapped), c = shown(misstated);
   ASSERT_TRUE(a && b && c);
@@ -302,67 +312,89 @@ TEST(BiScale, ASurfaceNearByIsNotFiltered) {
   PictureOptions picture32;
   picture32.width = picture32.height = 32;
   picture32.samples = 1;
-  const auto filtered = picture(asset, unevenLight(2), {}, fromAbove(), picture32);
-  picture32.biScale.filter = false;
-  const auto nearest = picture(asset, unevenLight(2), {}, fromAbove(), picture32);
+  const auto filtered = relitPicture(asset, unevenLight(2), {}, fromAbove(), picture32);
+  picture32.showing.filter = false;
+  const auto nearest = relitPicture(asset, unevenLight(2), {}, fromAbove(), picture32);
   ASSERT_TRUE(filtered && nearest);
   for (std::size_t i = 0; i < nearest->pixels.size(); ++i)
     ASSERT_TRUE((filtered->pixels[i] == nearest->pixels[i]).all()) << i;
 }
 
-TEST(CheckBiScale, SaysWhatDoesNotFit) {
+TEST(CheckPicture, SaysWhatDoesNotFit) {
   SpreadOptions options;
   options.idMap = test::patchworkMap(8, 8, Vec2(1, 1));
   options.shadowedBands = 2;
   options.encoding = Encoding::Snorm8;
   const asset::Asset good = floorOf(test::bumpyRtt(4, 4, 2, 2), options);
-  ASSERT_TRUE(checkBiScale(good, {}));
-  using Change = void (*)(asset::Asset&, encode::EncodedMesh&);
-  const std::pair<const char*, Change> cases[] = {
-      {"texture 3", [](auto&, auto& m) { m.biScale->rtt = 3; }},
-      {"texture -1", [](auto&, auto& m) { m.biScale->rtt = -1; }},
-      {"numbers", [](auto& a, auto&) { a.transfer.rtts[0].values.byte.pop_back(); }},
-      {"scales", [](auto& a, auto&) { a.transfer.rtts[0].values.scales.pop_back(); }},
-      {"views", [](auto& a, auto&) { a.transfer.rtts[0].views = 0; }},
-      {"bands", [](auto& a, auto&) { a.transfer.rtts[0].bands = 11; }},
-      {"measures", [](auto& a, auto&) { a.transfer.rtts[0].size.x() = 0; }},
-      {"3 tangents", [](auto&, auto& m) { m.biScale->tangents.pop_back(); }},
-      {"receiver 1", [](auto&, auto& m) { m.biScale->tangents[1] = m.normals[1]; }},
-      {"receiver 2", [](auto&, auto& m) { m.biScale->tangents[2] *= NAN; }},
-      {"id map", [](auto&, auto& m) { m.biScale->idMap->ids.pop_back(); }},
-      {"repeated",
-       [](auto&, auto& m) {
-         m.biScale->idMap.reset();
-         m.biScale->tiles.y() = 0;
-       }},
-      {"scale", [](auto&, auto& m) { m.biScale->scale = 0; }},
-      {"texture coordinates", [](auto& a, auto&) { a.scene.meshes[0].uvs.clear(); }},
-      {"shadowed macro", [](auto&, auto& m) { m.biScale->shadowed.single.pop_back(); }},
-      {"macro transfer of 0 bands", [](auto&, auto& m) { m.biScale->bands = 0; }},
-      {"channels",
-       [](auto&, auto& m) {
-         m.biScale->interreflected = m.biScale->shadowed;
-         m.biScale->channels = 2;
-       }},
-      {"at every vertex", [](auto&, auto& m) { m.layout = transport::Layout::Texels; }},
-      {"as well",
-       [](auto&, auto& m) { m.vectors = encode::encode(std::vector(4, 1.0f), Encoding::Float32); }},
+  const auto check = [](const asset::Asset& asset, const Showing& showing) {
+    PictureOptions picture;
+    picture.showing = showing;
+    return checkPicture(asset, uniformLight(2), {}, picture);
   };
-  for (const auto& [words, change] : cases) {
+  ASSERT_TRUE(check(good, {}));
+  using Change = void (*)(asset::Asset&, BiScale&);
+  const std::pair<const char*, Change> ofMeshes[] = {
+      {"biScale.rtt: is 3", [](auto&, auto& m) { m.patch.rtt = 3; }},
+      {"biScale.rtt: is -1", [](auto&, auto& m) { m.patch.rtt = -1; }},
+      {"biScale.tangents: 3 for 4", [](auto&, auto& m) { m.tangents.pop_back(); }},
+      {"that of vertex 1", [](auto&, auto& m) { m.tangents[1] = m.receivers->normals[1]; }},
+      {"that of vertex 2", [](auto&, auto& m) { m.tangents[2] *= NAN; }},
+      {"idMap", [](auto&, auto& m) { std::get<transfer::IdMap>(m.patch.place).ids.pop_back(); }},
+      {"biScale.tiles: must be finite and not 0",
+       [](auto&, auto& m) { m.patch.place = transfer::Tiles{Vec2(1, 0)}; }},
+      {"scale", [](auto&, auto& m) { m.patch.scale = 0; }},
+      {"no TEXCOORD_0", [](auto& a, auto&) { a.scene.meshes[0].uvs.clear(); }},
+      {"biScale.shadowed: 63 numbers",
+       [](auto&, auto& m) { m.matrices.find(Kind::Shadowed)->numbers.single.pop_back(); }},
+      {"biScale.bands: is 0", [](auto&, auto& m) { m.bands = 0; }},
+      {"and its RTT's 2", [](auto&, auto& m) { m.bands = 1; }},
+      {"must have the bands", [](auto&, auto& m) { m.matrices.find(Kind::Shadowed)->inBands = 1; }},
+      {"channels is 2",
+       [](auto&, auto& m) {
+         m.matrices.set(Kind::Interreflected, *m.matrices.find(Kind::Shadowed)).channels = 2;
+       }},
+      {"needs no matrices",
+       [](auto&, auto& m) { m.matrices.set(Kind::Unshadowed, *m.matrices.find(Kind::Shadowed)); }},
+      {"receivers must be vertices",
+       [](auto&, auto& m) {
+         transfer::Receivers receivers = *m.receivers;
+         receivers.where = transfer::AtTexels{2, 2, {1, 1, 1, 1}};
+         m.receivers = std::make_shared<const transfer::Receivers>(receivers);
+       }},
+      {"without receivers", [](auto&, auto& m) { m.receivers.reset(); }},
+  };
+  for (const auto& [words, change] : ofMeshes) {
     asset::Asset bad = good;
-    change(bad, bad.transfer.meshes[0]);
-    const Status status = checkBiScale(bad, {});
+    change(bad, std::get<BiScale>(bad.transfer.meshes[0]));
+    const Status status = check(bad, {});
     ASSERT_FALSE(status) << words;
     EXPECT_EQ(status.error().kind, ErrorKind::BadInput) << words;
     EXPECT_NE(status.error().message.find(words), std::string::npos) << status.error().message;
-    EXPECT_NE(status.error().message.find("mesh 0 'floor'"), std::string::npos);
+    EXPECT_NE(status.error().message.find("mesh 0 (\"floor\")"), std::string::npos);
   }
-  BiScaleOptions bounced;
-  bounced.macro = MacroTransport::Interreflected;
-  const Status status = checkBiScale(good, bounced);
+  using RttChange = void (*)(transfer::EncodedRtt&);
+  const std::pair<const char*, RttChange> ofRtts[] = {
+      {"numbers where", [](auto& rtt) { rtt.values.byte.pop_back(); }},
+      {"one scale for each", [](auto& rtt) { rtt.values.scales.pop_back(); }},
+      {"views", [](auto& rtt) { rtt.views = 0; }},
+      {"bands", [](auto& rtt) { rtt.bands = 11; }},
+      {"size", [](auto& rtt) { rtt.size.x() = 0; }},
+  };
+  for (const auto& [words, change] : ofRtts) {
+    asset::Asset bad = good;
+    change(bad.transfer.rtts[0]);
+    const Status status = check(bad, {});
+    ASSERT_FALSE(status) << words;
+    EXPECT_EQ(status.error().kind, ErrorKind::BadInput) << words;
+    EXPECT_NE(status.error().message.find(words), std::string::npos) << status.error().message;
+    EXPECT_NE(status.error().message.find("rtt 0"), std::string::npos);
+  }
+  Showing bounced;
+  bounced.mesoStructure = Kind::Interreflected;
+  const Status status = check(good, bounced);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::BadUsage);
-  EXPECT_NE(status.error().message.find("it holds: off, shadowed"), std::string::npos);
+  EXPECT_NE(status.error().message.find("it holds: unshadowed, shadowed"), std::string::npos);
   EXPECT_NE(status.error().message.find("--transfer interreflected"), std::string::npos);
 }
 

@@ -6,6 +6,7 @@
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/shade.h"
+#include "lambent/shade/transfer_matrices.h"
 
 namespace lambent::shade {
 
@@ -13,7 +14,7 @@ using scene::Mesh;
 using scene::Scene;
 using scene::Texture;
 
-Receivers Receivers::ofTexels(int width, int height, const Vec2& uv) {
+ReceiverWeights ReceiverWeights::ofTexels(int width, int height, const Vec2& uv) {
   struct Taps {
     std::uint32_t first, second;
     float weight;  // of the second
@@ -31,7 +32,7 @@ Receivers Receivers::ofTexels(int width, int height, const Vec2& uv) {
           4};
 }
 
-Rgb LitMesh::diffuseAt(const Receivers& at) const {
+Rgb LitMesh::diffuseAt(const ReceiverWeights& at) const {
   Rgb sum = Rgb::Zero();
   if (diffuse.empty()) return sum;
   for (int k = 0; k < at.count; ++k) {
@@ -41,7 +42,7 @@ Rgb LitMesh::diffuseAt(const Receivers& at) const {
   return sum;
 }
 
-Rgb LitMesh::glossyAt(const Receivers& at, const Vec3& reflected) const {
+Rgb LitMesh::glossyAt(const ReceiverWeights& at, const Vec3& reflected) const {
   Rgb sum = Rgb::Zero();
   if (lobe.empty()) return sum;
   std::array<float, sh::coefficientCount(sh::kMaxBands)> y;
@@ -68,26 +69,29 @@ std::vector<float> lobeFactors(int bands, float exponent) {
   return factors;
 }
 
-LitMesh lightMesh(const encode::EncodedMesh& mesh, const sh::RgbCoefficients& light,
-                  std::optional<float> lobeExponent) {
+LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
+                  const sh::RgbCoefficients& light, std::optional<float> lobeExponent) {
   LitMesh lit;
-  lit.albedoOutside = mesh.albedo == transport::Albedo::BaseColor;
-  if (!mesh.vectors.empty()) {
-    lit.diffuse.resize(3 * mesh.receiverCount());
-    DiffuseShader(mesh).shade(light, lit.diffuse);
+  if (const auto& diffuse = response.diffuse) {
+    lit.albedoOutside = diffuse->albedo == transfer::Albedo::BaseColor;
+    const DiffuseShader shader(diffuse->vectors);
+    lit.diffuse.resize(3 * shader.receiverCount());
+    shader.shade(light, lit.diffuse);
   }
-  if (!mesh.matrices.empty()) {
-    lit.lobeBands = mesh.outBands;
-    const int rows = sh::coefficientCount(mesh.outBands);
+  if (const auto& glossy = response.glossy) {
+    const transfer::Lobe& lobe = glossy->lobe;
+    lit.lobeBands = glossy->matrices.outBands;
+    const int rows = sh::coefficientCount(lit.lobeBands);
     const std::vector<float> factors =
-        lobeFactors(mesh.outBands, lobeExponent.value_or(mesh.lobeExponent));
-    const std::vector<float> incident = transferredRadiance(mesh, light);
+        lobeFactors(lit.lobeBands, lobeExponent.value_or(lobe.exponent));
+    const std::vector<float> incident = applyMatrices(glossy->matrices, light);
+    const std::size_t receivers = incident.size() / (3 * std::size_t(rows));
     lit.lobe.resize(incident.size());
-    for (std::size_t p = 0; p < mesh.receiverCount(); ++p)
+    for (std::size_t p = 0; p < receivers; ++p)
       for (int c = 0; c < 3; ++c)
         for (int i = 0; i < rows; ++i)
           lit.lobe[(p * rows + i) * 3 + c] =
-              mesh.glossy[c] * factors[i] * incident[(p * 3 + c) * rows + i];
+              lobe.reflectance[c] * factors[i] * incident[(p * 3 + c) * rows + i];
   }
   return lit;
 }
@@ -144,21 +148,21 @@ Rgb baseColorAt(const Scene& scene, std::uint32_t meshIndex, std::uint32_t trian
 }
 
 std::vector<Rgb> receiverBaseColors(const Scene& scene, std::uint32_t meshIndex,
-                                    const encode::EncodedMesh& transfer) {
+                                    const transfer::Receivers& receivers) {
   const Mesh& mesh = scene.meshes[meshIndex];
   const Texture* texture = baseTexture(scene, mesh);
   if (mesh.colors.empty() && !texture) return {};
-  const bool texels = transfer.layout == transport::Layout::Texels;
+  const transfer::AtTexels* grid = receivers.texels();
   std::vector<Rgb> base;
   if (mesh.colors.empty())
-    base.assign(transfer.receiverCount(), Rgb::Ones());
+    base.assign(receivers.size(), Rgb::Ones());
   else
-    base = texels ? colorsAtTexels(mesh, transfer.width, transfer.height) : mesh.colors;
+    base = grid ? colorsAtTexels(mesh, grid->width, grid->height) : mesh.colors;
   if (!texture) return base;
   for (std::size_t p = 0; p < base.size(); ++p) {
-    const Vec2 uv = texels ? Vec2((p % transfer.width + 0.5f) / transfer.width,
-                                  (p / transfer.width + 0.5f) / transfer.height)
-                           : mesh.uvs[p];
+    const Vec2 uv =
+        grid ? Vec2((p % grid->width + 0.5f) / grid->width, (p / grid->width + 0.5f) / grid->height)
+             : mesh.uvs[p];
     base[p] *= scene::sampleBaseColor(*texture, uv);
   }
   return base;

@@ -7,25 +7,25 @@
 #include <optional>
 #include <vector>
 
-#include "lambent/encode/encoded_field.h"
 #include "lambent/scene/scene.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::shade {
 
 /// Up to four receivers and their weights, which sum to 1: the corners of a triangle, or the four
 /// texels around a point.
-struct Receivers {
+struct ReceiverWeights {
   std::array<std::uint32_t, 4> index{};
   std::array<float, 4> weight{};
   int count = 0;
 
-  static Receivers one(std::uint32_t index) { return {{index}, {1.0f}, 1}; }
-  static Receivers ofTriangle(const scene::Triangle& triangle, float u, float v) {
+  static ReceiverWeights one(std::uint32_t index) { return {{index}, {1.0f}, 1}; }
+  static ReceiverWeights ofTriangle(const scene::Triangle& triangle, float u, float v) {
     return {{triangle[0], triangle[1], triangle[2]}, {1.0f - u - v, u, v}, 3};
   }
   /// Bilinear between texel centres, clamped to the edge. uv as glTF has it; row 0 at v = 0.
-  static Receivers ofTexels(int width, int height, const Vec2& uv);
+  static ReceiverWeights ofTexels(int width, int height, const Vec2& uv);
 };
 
 struct LitMesh {
@@ -34,13 +34,13 @@ struct LitMesh {
   std::vector<float> lobe;     ///< α_i G_i (M L)_i · k, [receiver][coefficient][3], or empty
   int lobeBands = 0;
 
-  Rgb diffuseAt(const Receivers& at) const;
+  Rgb diffuseAt(const ReceiverWeights& at) const;
   /// Glossy exit radiance (eq. 12) for a mirrored view direction, without the base colour.
-  Rgb glossyAt(const Receivers& at, const Vec3& reflected) const;
+  Rgb glossyAt(const ReceiverWeights& at, const Vec3& reflected) const;
 };
 
-LitMesh lightMesh(const encode::EncodedMesh& mesh, const sh::RgbCoefficients& light,
-                  std::optional<float> lobeExponent);
+LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
+                  const sh::RgbCoefficients& light, std::optional<float> lobeExponent);
 
 /// α_i G_i for every coefficient: the lobe's moments, each band's for all its coefficients.
 std::vector<float> lobeFactors(int bands, float exponent);
@@ -55,6 +55,6 @@ Rgb baseColorAt(const scene::Scene& scene, std::uint32_t mesh, std::uint32_t tri
                 float v);
 /// … and at every receiver of a mesh; empty if it is white everywhere.
 std::vector<Rgb> receiverBaseColors(const scene::Scene& scene, std::uint32_t mesh,
-                                    const encode::EncodedMesh& transfer);
+                                    const transfer::Receivers& receivers);
 
 }  // namespace lambent::shade

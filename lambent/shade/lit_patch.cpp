@@ -13,6 +13,7 @@
 
 #include "lambent/shade/macro_transport.h"
 #include "lambent/shade/rtt_lookup.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::shade {
 
@@ -20,7 +21,7 @@ std::shared_ptr<const RttPyramid> RttPyramids::of(int rtt) {
   std::shared_ptr<const RttPyramid>& pyramid = made_[rtt];
   if (!pyramid)
     pyramid = std::make_shared<const RttPyramid>(
-        makePyramid(encode::decode(field_.rtts[std::size_t(rtt)]), filter_ ? 32 : 1));
+        makePyramid(transfer::decode(field_.rtts[std::size_t(rtt)]), filter_ ? 32 : 1));
   return pyramid;
 }
 
@@ -35,20 +36,21 @@ std::vector<float> inRttLayout(const std::vector<float>& light, int bands) {
   return out;
 }
 
-LitPatch::LitPatch(const scene::Mesh& mesh, const encode::EncodedMesh& transfer,
-                   const encode::EncodedField& field, std::shared_ptr<const RttPyramid> pyramid,
-                   const sh::RgbCoefficients& light, const BiScaleOptions& options)
-    : mesh_(mesh),
-      transfer_(transfer),
-      biScale_(*transfer.biScale),
-      rttSize_(field.rtts[std::size_t(transfer.biScale->rtt)].size),
+LitPatch::LitPatch(const asset::Asset& asset, std::uint32_t mesh,
+                   std::shared_ptr<const RttPyramid> pyramid, const sh::RgbCoefficients& light,
+                   const Showing& showing)
+    : mesh_(asset.scene.meshes[mesh]),
+      biScale_(std::get<transfer::BiScale<transfer::Numbers>>(asset.transfer.meshes[mesh])),
+      rttSize_(asset.transfer.rtts[std::size_t(biScale_.patch.rtt)].size),
       pyramid_(std::move(pyramid)),
-      options_(options),
-      light_(inRttLayout(incidentLight(transfer, light, pyramid_->bands, options.macro),
+      viewDependent_(showing.viewDependent),
+      filter_(showing.filter),
+      light_(inRttLayout(incidentLight(biScale_, light, pyramid_->bands,
+                                       kindShown(asset.transfer.meshes[mesh], showing)),
                          pyramid_->bands)) {
-  if (!options.filter || biScale_.idMap) return;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    gradients_.push_back(patchGradient(biScale_, mesh, t));
+  if (!filter_ || biScale_.patch.idMap()) return;
+  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+    gradients_.push_back(patchGradient(biScale_.patch, mesh_, t));
 }
 
 Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfacePoint& point,
@@ -58,13 +60,13 @@ Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfaceP
   const Mat3 frame = worldFromPatch(
       point.normal, w * biScale_.tangents[i] + u * biScale_.tangents[j] + v * biScale_.tangents[k]);
   const Vec3 seen = frame.transpose() * toViewer;
-  const RttViews views =
-      viewsAround(pyramid_->views, options_.viewDependent ? seen : Vec3(Vec3::UnitZ()));
+  const RttViews views = viewsAround(pyramid_->views, viewDependent_ ? seen : Vec3(Vec3::UnitZ()));
 
   RttProbes probes;
-  if (options_.filter) {
-    const PatchGradient gradient =
-        biScale_.idMap ? patchGradient(biScale_, rttSize_, frame) : gradients_[triangle];
+  if (filter_) {
+    const PatchGradient gradient = biScale_.patch.idMap()
+                                       ? patchGradient(biScale_.patch, rttSize_, frame)
+                                       : gradients_[triangle];
     const FootprintAxes axes = footprintAxes(frame, seen, width);
     const RttLevel& level = pyramid_->levels[0];
     probes = probesOf(Vec2(gradient.x.dot(axes.longer), gradient.y.dot(axes.longer)),
@@ -77,16 +79,15 @@ Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfaceP
   const float *a = light_.data() + i * stride, *b = light_.data() + j * stride,
               *c = light_.data() + k * stride;
   for (std::size_t n = 0; n < stride; ++n) light[n] = w * a[n] + u * b[n] + v * c[n];
-  return respond(*pyramid_, patchPlace(biScale_, point.uv), probes, views, light.data());
+  return respond(*pyramid_, patchPlace(biScale_.patch, point.uv), probes, views, light.data());
 }
 
 Rgb LitPatch::atReceiver(std::uint32_t receiver, const Vec3& toViewer) const {
-  const Vec3 normal = transfer_.normals[receiver].normalized();
+  const Vec3 normal = biScale_.receivers->normals[receiver].normalized();
   const Vec3 seen = worldFromPatch(normal, biScale_.tangents[receiver]).transpose() * toViewer;
-  const RttViews views =
-      viewsAround(pyramid_->views, options_.viewDependent ? seen : Vec3(Vec3::UnitZ()));
+  const RttViews views = viewsAround(pyramid_->views, viewDependent_ ? seen : Vec3(Vec3::UnitZ()));
   const Vec2 uv = mesh_.uvs.empty() ? Vec2(Vec2::Zero()) : mesh_.uvs[receiver];
-  return respond(*pyramid_, patchPlace(biScale_, uv), {}, views,
+  return respond(*pyramid_, patchPlace(biScale_.patch, uv), {}, views,
                  light_.data() + std::size_t(receiver) * pyramid_->stride());
 }
 

@@ -7,12 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "lambent/encode/encoded_field.h"
 #include "lambent/scene/scene.h"
 #include "lambent/sh/coefficients.h"
-#include "lambent/shade/bi_scale_options.h"
 #include "lambent/shade/patch_place.h"
 #include "lambent/shade/rtt_pyramid.h"
+#include "lambent/shade/showing.h"
 
 namespace lambent::shade {
 
@@ -20,11 +19,11 @@ namespace lambent::shade {
 class RttPyramids {
  public:
   /// Without `filter`, level 0 alone.
-  RttPyramids(const encode::EncodedField& field, bool filter) : field_(field), filter_(filter) {}
+  RttPyramids(const transfer::EncodedField& field, bool filter) : field_(field), filter_(filter) {}
   std::shared_ptr<const RttPyramid> of(int rtt);
 
  private:
-  const encode::EncodedField& field_;
+  const transfer::EncodedField& field_;
   bool filter_;
   std::map<int, std::shared_ptr<const RttPyramid>> made_;
 };
@@ -35,10 +34,9 @@ std::vector<float> inRttLayout(const std::vector<float>& light, int bands);
 
 class LitPatch {
  public:
-  /// Scene and transfer must outlive it, and fit (checkBiScale).
-  LitPatch(const scene::Mesh& mesh, const encode::EncodedMesh& transfer,
-           const encode::EncodedField& field, std::shared_ptr<const RttPyramid> pyramid,
-           const sh::RgbCoefficients& light, const BiScaleOptions& options);
+  /// Of a mesh with meso-structure. The asset must outlive it, and fit together (asset::faultOf).
+  LitPatch(const asset::Asset& asset, std::uint32_t mesh, std::shared_ptr<const RttPyramid> pyramid,
+           const sh::RgbCoefficients& light, const Showing& showing);
 
   /// Exit radiance (eq. 4) of a place of a triangle towards the viewer. `width`: metres that the
   /// sub-sample sees across its ray.
@@ -49,11 +47,10 @@ class LitPatch {
 
  private:
   const scene::Mesh& mesh_;
-  const encode::EncodedMesh& transfer_;
-  const encode::EncodedBiScale& biScale_;
+  const transfer::BiScale<transfer::Numbers>& biScale_;
   Vec2 rttSize_;
   std::shared_ptr<const RttPyramid> pyramid_;
-  BiScaleOptions options_;
+  bool viewDependent_, filter_;
   std::vector<float> light_;              ///< [receiver][rttStride]
   std::vector<PatchGradient> gradients_;  ///< of triangles, if they are needed
 };

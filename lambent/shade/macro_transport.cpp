@@ -1,7 +1,7 @@
 // This work is based on:
 // - sloan2003biscale: bi-scale radiance transfer, eq. 2 and the right vector M_p L of eq. 4. M_p
-// holds
-//   the rotation into the tangent frame; where there is no M_p, the rotation is what is left of it.
+//   holds the rotation into the tangent frame; where there is no M_p, the rotation is what is left
+//   of it.
 
 #include "lambent/shade/macro_transport.h"
 
@@ -17,43 +17,6 @@
 
 namespace lambent::shade {
 
-std::string_view nameOf(MacroTransport macro) {
-  switch (macro) {
-    case MacroTransport::Shadowed:
-      return "shadowed";
-    case MacroTransport::Interreflected:
-      return "interreflected";
-    case MacroTransport::Off:
-      break;
-  }
-  return "off";
-}
-
-bool holds(const encode::EncodedBiScale& biScale, MacroTransport macro) {
-  switch (macro) {
-    case MacroTransport::Shadowed:
-      return !biScale.shadowed.empty();
-    case MacroTransport::Interreflected:
-      return !biScale.interreflected.empty();
-    case MacroTransport::Off:
-      break;
-  }
-  return true;
-}
-
-MacroTransport bestOf(const encode::EncodedBiScale& biScale) {
-  for (const MacroTransport macro : {MacroTransport::Interreflected, MacroTransport::Shadowed})
-    if (holds(biScale, macro)) return macro;
-  return MacroTransport::Off;
-}
-
-std::string heldBy(const encode::EncodedBiScale& biScale) {
-  std::string names = "off";
-  for (const MacroTransport macro : {MacroTransport::Shadowed, MacroTransport::Interreflected})
-    if (holds(biScale, macro)) names += std::string(", ") + std::string(nameOf(macro));
-  return names;
-}
-
 Mat3 worldFromPatch(const Vec3& normal, const Vec3& tangent) {
   const Vec3 flat = tangent - normal.dot(tangent) * normal;
   const float length = flat.norm();
@@ -67,14 +30,15 @@ Mat3 worldFromPatch(const Vec3& normal, const Vec3& tangent) {
 
 namespace {
 
-std::vector<float> turnedLight(const encode::EncodedMesh& mesh, const sh::RgbCoefficients& light,
-                               int bands) {
+std::vector<float> turnedLight(const transfer::BiScale<transfer::Numbers>& biScale,
+                               const sh::RgbCoefficients& light, int bands) {
+  const transfer::Receivers& receivers = *biScale.receivers;
   const int used = std::min(bands, light.bands), count = sh::coefficientCount(bands);
   const sh::RgbCoefficients cut = sh::withBands(light, used);
-  std::vector<float> out(mesh.receiverCount() * 3 * count);
-  tbb::parallel_for(std::size_t(0), mesh.receiverCount(), [&](std::size_t p) {
+  std::vector<float> out(receivers.size() * 3 * count);
+  tbb::parallel_for(std::size_t(0), receivers.size(), [&](std::size_t p) {
     const Mat3 patchFromWorld =
-        worldFromPatch(mesh.normals[p].normalized(), mesh.biScale->tangents[p]).transpose();
+        worldFromPatch(receivers.normals[p].normalized(), biScale.tangents[p]).transpose();
     for (int c = 0; c < 3; ++c)
       sh::rotate(used, patchFromWorld, cut.channel(c),
                  std::span(out).subspan((p * 3 + c) * count, sh::coefficientCount(used)));
@@ -93,19 +57,15 @@ std::vector<float> withCoefficients(std::vector<float> vectors, int n, int count
 
 }  // namespace
 
-std::vector<float> incidentLight(const encode::EncodedMesh& mesh, const sh::RgbCoefficients& light,
-                                 int bands, std::optional<MacroTransport> macro) {
-  assert(mesh.biScale);
-  const encode::EncodedBiScale& biScale = *mesh.biScale;
-  const MacroTransport chosen = macro.value_or(bestOf(biScale));
-  assert(holds(biScale, chosen));
-  if (chosen == MacroTransport::Off) return turnedLight(mesh, light, bands);
-  const bool shadowed = chosen == MacroTransport::Shadowed;
-  const int n = sh::coefficientCount(biScale.bands);
-  std::vector<float> products =
-      applyMatrices(shadowed ? biScale.shadowed : biScale.interreflected,
-                    {mesh.receiverCount(), shadowed ? 1 : biScale.channels, n, n}, light);
-  return withCoefficients(std::move(products), n, sh::coefficientCount(bands));
+std::vector<float> incidentLight(const transfer::BiScale<transfer::Numbers>& biScale,
+                                 const sh::RgbCoefficients& light, int bands, transfer::Kind kind) {
+  const transfer::Matrices<transfer::Numbers>* matrices = biScale.matrices.find(kind);
+  if (!matrices) {
+    assert(kind == transfer::Kind::Unshadowed);
+    return turnedLight(biScale, light, bands);
+  }
+  return withCoefficients(applyMatrices(*matrices, light), sh::coefficientCount(biScale.bands),
+                          sh::coefficientCount(bands));
 }
 
 }  // namespace lambent::shade

@@ -7,25 +7,25 @@
 
 namespace lambent::shade {
 
-Vec2 patchPlace(const encode::EncodedBiScale& biScale, const Vec2& uv) {
-  if (const std::optional<synthesis::IdMap>& map = biScale.idMap) {
+Vec2 patchPlace(const transfer::Patch& patch, const Vec2& uv) {
+  if (const transfer::IdMap* map = patch.idMap()) {
     // In this sequence a NaN ends at the border, and not outside of the map.
     const auto texel = [](float coordinate, int size) {
       return int(std::max(0.0f, std::min(float(size - 1), std::floor(coordinate * float(size)))));
     };
     return map->at(texel(uv.x(), map->width), texel(uv.y(), map->height));
   }
-  const Vec2 q = biScale.tiles.cwiseProduct(Vec2(uv.x(), -uv.y()));
+  const Vec2 q = patch.tiles().cwiseProduct(Vec2(uv.x(), -uv.y()));
   return q - Vec2(q.array().floor());
 }
 
-PatchGradient patchGradient(const encode::EncodedBiScale& biScale, const Vec2& rttSize,
+PatchGradient patchGradient(const transfer::Patch& patch, const Vec2& rttSize,
                             const Mat3& worldFromPatch) {
-  return {worldFromPatch.col(0) / (rttSize.x() * biScale.scale),
-          worldFromPatch.col(1) / (rttSize.y() * biScale.scale)};
+  return {worldFromPatch.col(0) / (rttSize.x() * patch.scale),
+          worldFromPatch.col(1) / (rttSize.y() * patch.scale)};
 }
 
-PatchGradient patchGradient(const encode::EncodedBiScale& biScale, const scene::Mesh& mesh,
+PatchGradient patchGradient(const transfer::Patch& patch, const scene::Mesh& mesh,
                             std::uint32_t triangle) {
   // Of a function with the values f0, f1, f2 at the corners: ((f1 − f0) (e2 × n) … ) / |n|², with
   // the normal n = e1 × e2.
@@ -39,8 +39,8 @@ PatchGradient patchGradient(const encode::EncodedBiScale& biScale, const scene::
   const Eigen::Vector2d d1 = (mesh.uvs[j] - mesh.uvs[i]).cast<double>();
   const Eigen::Vector2d d2 = (mesh.uvs[k] - mesh.uvs[i]).cast<double>();
   const Vec3d u = d1.x() * along1 + d2.x() * along2, v = d1.y() * along1 + d2.y() * along2;
-  PatchGradient gradient{(double(biScale.tiles.x()) * u).cast<float>(),
-                         (-double(biScale.tiles.y()) * v).cast<float>()};
+  PatchGradient gradient{(double(patch.tiles().x()) * u).cast<float>(),
+                         (-double(patch.tiles().y()) * v).cast<float>()};
   if (!gradient.x.allFinite() || !gradient.y.allFinite()) return {};
   return gradient;
 }

@@ -2,7 +2,10 @@
 // clamp after. So CPU and GL differ in nothing but how they see and shade the surfaces.
 #pragma once
 
-#include "lambent/shade/picture.h"
+#include "lambent/image/image.h"
+#include "lambent/light/environment.h"
+#include "lambent/scene/camera.h"
+#include "lambent/shade/picture_options.h"
 
 namespace lambent::shade {
 
@@ -12,7 +15,8 @@ Status checkCamera(const scene::Camera& camera);
 /// Whether size, samples and lobe are in range.
 Status checkOptions(const PictureOptions& options);
 
-/// Whether scene, transfer, light, camera and options fit together. Bad input names the mesh.
+/// Whether the asset fits together (asset::faultOf) and holds what is to be shown, and light,
+/// camera and options are in range. Bad input names the mesh.
 Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
                     const scene::Camera& camera, const PictureOptions& options);
 

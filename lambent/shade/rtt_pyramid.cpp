@@ -1,8 +1,7 @@
 // This work is based on:
 // - williams1983pyramidal: pyramidal parametrics. Of sloan2003biscale's future work ("improved
-// filtering
-//   over the RTTs spatial index"): radiance is linear in B, so the mean of B over a stretch of the
-//   patch, under one macro-scale light, is the mean of the radiance there.
+//   filtering over the RTTs spatial index"): radiance is linear in B, so the mean of B over a
+//   stretch of the patch, under one macro-scale light, is the mean of the radiance there.
 //
 // Positions of a level share the period evenly. Where a width is odd, a position of the next level
 // covers a broken number of them, and each gives by the share that is covered (a box filter of the
@@ -63,7 +62,7 @@ RttLevel halved(const RttLevel& fine, std::size_t perPosition) {
 
 }  // namespace
 
-RttPyramid makePyramid(const meso::RadianceTransferTexture& rtt, int mostLevels) {
+RttPyramid makePyramid(const transfer::Rtt<transfer::Floats>& rtt, int mostLevels) {
   assert(rtt.values.size() == rtt.planeSize() * std::size_t(rtt.bands) * rtt.bands);
   RttPyramid pyramid;
   pyramid.views = rtt.views;

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "lambent/meso/radiance_transfer_texture.h"
 #include "lambent/shade/aligned_vector.h"
+#include "lambent/transfer/rtt.h"
 
 namespace lambent::shade {
 
@@ -41,6 +41,6 @@ struct RttPyramid {
 };
 
 /// At most `mostLevels` levels, at least the first.
-RttPyramid makePyramid(const meso::RadianceTransferTexture& rtt, int mostLevels = 32);
+RttPyramid makePyramid(const transfer::Rtt<transfer::Floats>& rtt, int mostLevels = 32);
 
 }  // namespace lambent::shade

@@ -22,7 +22,7 @@ double meanOf(const RttLevel& level, std::size_t perPosition, std::size_t number
 }
 
 TEST(RttPyramid, FirstLevelIsTheTexture) {
-  const meso::RadianceTransferTexture rtt = test::bumpyRtt(5, 3, 3, 3);
+  const transfer::SimulatedRtt rtt = test::bumpyRtt(5, 3, 3, 3);
   const RttPyramid pyramid = makePyramid(rtt, 1);
   ASSERT_EQ(pyramid.levels.size(), 1u);
   EXPECT_EQ(pyramid.stride(), 28);
@@ -50,8 +50,8 @@ TEST(RttPyramid, EveryLevelHasTheTexturesMean) {
 
 // The patch goes on beyond its border: moved by two positions, the next level moves by one.
 TEST(RttPyramid, IsPeriodic) {
-  const meso::RadianceTransferTexture rtt = test::bumpyRtt(8, 8, 1, 2);
-  meso::RadianceTransferTexture moved = rtt;
+  const transfer::SimulatedRtt rtt = test::bumpyRtt(8, 8, 1, 2);
+  transfer::SimulatedRtt moved = rtt;
   for (int i = 0; i < 4; ++i)
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 8; ++x)
@@ -168,12 +168,12 @@ TEST(ApplyMatrices, BytesWithScalesOfAnyRun) {
   for (const int channels : {1, 3})
     for (const int block : {16, 9 * 16, 3 * 9 * 16, 4, 2 * 9 * 16 * 5}) {
       if (receivers * channels * rows * columns % block != 0) continue;
-      const encode::Numbers matrices =
-          encode::encode(numbersLike(std::size_t(receivers) * channels * rows * columns),
-                         encode::Encoding::Snorm8, std::size_t(block));
-      const std::vector<float> m = encode::decode(matrices);
-      const std::vector<float> out =
-          applyMatrices(matrices, {receivers, channels, rows, columns}, light);
+      const transfer::Matrices<transfer::Numbers> matrices{
+          3, 4, channels,
+          transfer::encode(numbersLike(std::size_t(receivers) * channels * rows * columns),
+                           transfer::Encoding::Snorm8, std::size_t(block))};
+      const std::vector<float> m = transfer::decode(matrices.numbers);
+      const std::vector<float> out = applyMatrices(matrices, light);
       for (int p = 0; p < receivers; ++p)
         for (int c = 0; c < 3; ++c)
           for (int i = 0; i < rows; ++i) {

@@ -21,12 +21,12 @@
 #include "lambent/shade/dispatch.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
-#include "lambent/shade/transfer_matrices.h"
+#include "lambent/shade/unshadowed.h"
 
 namespace lambent::shade {
 
-using encode::EncodedMesh;
-using encode::Encoding;
+using transfer::Encoding;
+using transfer::Numbers;
 
 namespace {
 
@@ -61,30 +61,25 @@ void shadeAll(DiffuseKernel<Number> kernel, const AlignedVector<Number>& blocks,
 
 }  // namespace
 
-DiffuseShader::DiffuseShader(const EncodedMesh& mesh)
-    : receivers_(mesh.receiverCount()), bands_(mesh.bands), channels_(mesh.channels) {
-  if (mesh.vectors.empty()) {
-    bands_ = channels_ = 0;
-    return;
-  }
+DiffuseShader::DiffuseShader(const transfer::Vectors<Numbers>& vectors)
+    : bands_(vectors.bands), channels_(vectors.channels) {
+  const Numbers& numbers = vectors.numbers;
   const int coefficients = sh::coefficientCount(bands_);
+  const std::size_t each = std::size_t(channels_) * std::size_t(coefficients);
   assert(channels_ == 1 || channels_ == 3);
-  assert(mesh.vectors.size() == receivers_ * channels_ * coefficients);
-  if (mesh.vectors.encoding == Encoding::Float32)
-    single_ = inBlocks(mesh.vectors.single, receivers_, channels_, coefficients);
-  else if (mesh.vectors.encoding == Encoding::Snorm8 ||
+  assert(numbers.size() % each == 0);
+  receivers_ = numbers.size() / each;
+  if (numbers.encoding == Encoding::Float32)
+    single_ = inBlocks(numbers.single, receivers_, channels_, coefficients);
+  else if (numbers.encoding == Encoding::Snorm8 ||
            math::bestIsa() == math::Isa::Baseline)  // decoding takes longer there than reading
-    single_ = inBlocks(encode::decode(mesh.vectors), receivers_, channels_, coefficients);
+    single_ = inBlocks(transfer::decode(numbers), receivers_, channels_, coefficients);
   else
-    half_ = inBlocks(mesh.vectors.half, receivers_, channels_, coefficients);
+    half_ = inBlocks(numbers.half, receivers_, channels_, coefficients);
 }
 
 void DiffuseShader::shade(const sh::RgbCoefficients& light, std::span<float> out) const {
   assert(out.size() >= 3 * receivers_);
-  if (channels_ == 0) {
-    std::fill_n(out.begin(), 3 * receivers_, 0.0f);
-    return;
-  }
   const int stride = sh::coefficientCount(bands_);
   const int count = std::min(stride, sh::coefficientCount(light.bands));
   std::array<float, 3 * sh::coefficientCount(sh::kMaxBands)> interleaved;
@@ -99,58 +94,62 @@ void DiffuseShader::shade(const sh::RgbCoefficients& light, std::span<float> out
              interleaved.data(), out);
 }
 
-std::vector<float> transferredRadiance(const EncodedMesh& mesh, const sh::RgbCoefficients& light) {
-  if (mesh.matrices.empty()) return {};
-  return applyMatrices(mesh.matrices,
-                       {mesh.receiverCount(), mesh.matrixChannels,
-                        sh::coefficientCount(mesh.outBands), sh::coefficientCount(mesh.inBands)},
-                       light);
-}
-
 namespace {
 
-Vec3 directionToViewer(const View& view, const EncodedMesh& mesh, std::size_t receiver) {
-  const Vec3& normal = mesh.normals[receiver];
-  return view.eye ? Vec3((*view.eye - mesh.positions[receiver]).normalized()) : normal;
+Vec3 directionToViewer(const ReceiverView& view, const transfer::Receivers& receivers,
+                       std::size_t receiver) {
+  return view.eye ? Vec3((*view.eye - receivers.positions[receiver]).normalized())
+                  : receivers.normals[receiver];
 }
 
-std::vector<Rgb> patchRadiance(const asset::Asset& asset, std::uint32_t meshIndex,
-                               const EncodedMesh& mesh, const sh::RgbCoefficients& light,
-                               const View& view) {
-  const LitPatch lit(asset.scene.meshes[meshIndex], mesh, asset.transfer,
-                     RttPyramids(asset.transfer, false).of(mesh.biScale->rtt), light, view.biScale);
-  std::vector<Rgb> out(mesh.receiverCount());
+/// of(p) for all receivers.
+template <class Of>
+std::vector<Rgb> atAll(const transfer::Receivers& receivers, const Of& of) {
+  std::vector<Rgb> out(receivers.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 1024), [&](const auto& range) {
-    for (std::size_t p = range.begin(); p < range.end(); ++p)
-      out[p] = lit.atReceiver(std::uint32_t(p), directionToViewer(view, mesh, p));
+    for (std::size_t p = range.begin(); p < range.end(); ++p) out[p] = of(p);
   });
   return out;
+}
+
+std::vector<Rgb> patchRadiance(const asset::Asset& asset, std::uint32_t mesh,
+                               const sh::RgbCoefficients& light, const ReceiverView& view) {
+  const auto& biScale = std::get<transfer::BiScale<Numbers>>(asset.transfer.meshes[mesh]);
+  const LitPatch lit(asset, mesh, RttPyramids(asset.transfer, false).of(biScale.patch.rtt), light,
+                     view.showing);
+  return atAll(*biScale.receivers, [&](std::size_t p) {
+    return lit.atReceiver(std::uint32_t(p), directionToViewer(view, *biScale.receivers, p));
+  });
+}
+
+std::vector<Rgb> surfaceRadiance(const asset::Asset& asset, std::uint32_t mesh,
+                                 const sh::RgbCoefficients& light, const ReceiverView& view) {
+  const transfer::Receivers& receivers =
+      *std::get<transfer::Surface<Numbers>>(asset.transfer.meshes[mesh]).receivers;
+  const transfer::Kind kind = kindShown(asset.transfer.meshes[mesh], view.showing);
+  const LitMesh lit =
+      lightMesh(*responseUnder(asset, mesh, kind), light, view.showing.lobeExponent);
+  const std::vector<Rgb> base = receiverBaseColors(asset.scene, mesh, receivers);
+  return atAll(receivers, [&](std::size_t p) -> Rgb {
+    const ReceiverWeights at = ReceiverWeights::one(std::uint32_t(p));
+    const Rgb outside = base.empty() ? Rgb(Rgb::Ones()) : base[p];
+    const Vec3 reflected = mirrored(directionToViewer(view, receivers, p), receivers.normals[p]);
+    return lit.diffuseAt(at) * (lit.albedoOutside ? outside : Rgb(Rgb::Ones())) +
+           lit.glossyAt(at, reflected) * outside;
+  });
 }
 
 }  // namespace
 
-std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t meshIndex,
-                              const sh::RgbCoefficients& light, const View& view) {
-  assert(meshIndex < asset.transfer.meshes.size() && meshIndex < asset.scene.meshes.size());
-  const ShownTransfer shown(asset, meshIndex, view.transfer, view.biScale.macro);
-  const EncodedMesh& mesh = shown.get();
-  if (mesh.layout == transport::Layout::None) return {};
-  if (mesh.biScale) return patchRadiance(asset, meshIndex, mesh, light, view);
-  const LitMesh lit = lightMesh(mesh, light, view.lobeExponent);
-  const std::vector<Rgb> base = receiverBaseColors(asset.scene, meshIndex, mesh);
-
-  std::vector<Rgb> out(mesh.receiverCount(), Rgb::Zero());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 1024), [&](const auto& range) {
-    for (std::size_t p = range.begin(); p < range.end(); ++p) {
-      const Receivers at = Receivers::one(std::uint32_t(p));
-      const Rgb outside = base.empty() ? Rgb(Rgb::Ones()) : base[p];
-      const Vec3& normal = mesh.normals[p];
-      const Vec3 toViewer = directionToViewer(view, mesh, p);
-      out[p] = lit.diffuseAt(at) * (lit.albedoOutside ? outside : Rgb(Rgb::Ones())) +
-               lit.glossyAt(at, mirrored(toViewer, normal)) * outside;
-    }
-  });
-  return out;
+std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t mesh,
+                              const sh::RgbCoefficients& light, const ReceiverView& view) {
+  assert(mesh < asset.transfer.meshes.size() && mesh < asset.scene.meshes.size());
+  const transfer::EncodedMesh& stored = asset.transfer.meshes[mesh];
+  if (std::holds_alternative<transfer::BiScale<Numbers>>(stored))
+    return patchRadiance(asset, mesh, light, view);
+  if (std::holds_alternative<transfer::Surface<Numbers>>(stored))
+    return surfaceRadiance(asset, mesh, light, view);
+  return {};
 }
 
 }  // namespace lambent::shade

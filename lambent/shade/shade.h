@@ -10,8 +10,8 @@
 #include "lambent/math/types.h"
 #include "lambent/sh/coefficients.h"
 #include "lambent/shade/aligned_vector.h"
-#include "lambent/shade/bi_scale_options.h"
-#include "lambent/shade/transfer_choice.h"
+#include "lambent/shade/showing.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::shade {
 
@@ -19,9 +19,9 @@ namespace lambent::shade {
 /// coefficient, 16 or 32 bit as encoded (32 where the machine cannot convert).
 class DiffuseShader {
  public:
-  explicit DiffuseShader(const encode::EncodedMesh& mesh);
+  explicit DiffuseShader(const transfer::Vectors<transfer::Numbers>& vectors);
   /// Exit radiance M · L of every receiver, without the base colour if the mesh keeps it outside
-  /// (transport::Albedo::BaseColor). out: 3 floats for each receiver. One thread.
+  /// (transfer::Albedo::BaseColor). out: 3 floats for each receiver. One thread.
   void shade(const sh::RgbCoefficients& light, std::span<float> out) const;
   std::size_t receiverCount() const { return receivers_; }
 
@@ -32,22 +32,16 @@ class DiffuseShader {
   AlignedVector<std::uint16_t> half_;
 };
 
-/// Transferred incident radiance M · L of every receiver (eq. 9): [receiver][channel][outBands²].
-std::vector<float> transferredRadiance(const encode::EncodedMesh& mesh,
-                                       const sh::RgbCoefficients& light);
-
-struct View {
+struct ReceiverView {
   std::optional<Vec3> eye;  ///< world position; none: every receiver is seen along its normal
-  std::optional<float> lobeExponent;  ///< instead of the material's
-  /// Of meshes with meso-structure; receivers are not filtered. Its `macro` wins over `transfer`.
-  BiScaleOptions biScale;
-  TransferChoice transfer = TransferChoice::Best;  ///< of what the asset holds
+  Showing showing;          ///< receivers are not filtered
 };
 
 /// Whole exit radiance of every receiver of a mesh: diffuse and glossy (eq. 12) parts and base
 /// colour, not clamped: a light that rings is seen to ring. Empty for a mirror. A light of fewer
-/// bands than the asset takes counts as zero beyond; one of more is cut.
+/// bands than the asset takes counts as zero beyond; one of more is cut. What is not held is shown
+/// as the nearest below that is (kindShown).
 std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t mesh,
-                              const sh::RgbCoefficients& light, const View& view = {});
+                              const sh::RgbCoefficients& light, const ReceiverView& view = {});
 
 }  // namespace lambent::shade

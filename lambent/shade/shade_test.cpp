@@ -10,13 +10,17 @@
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/dispatch.h"
 #include "lambent/shade/lit_mesh.h"
+#include "lambent/shade/transfer_matrices.h"
 
 namespace lambent::shade {
 namespace {
 
-using encode::EncodedMesh;
-using encode::Encoding;
 using sh::coefficientCount;
+using transfer::Encoding;
+using transfer::Kind;
+using transfer::Numbers;
+using Response = transfer::SurfaceResponse<Numbers>;
+using Surface = transfer::Surface<Numbers>;
 
 std::vector<float> randomNumbers(std::size_t count, std::uint32_t seed) {
   std::mt19937 engine(seed);
@@ -37,17 +41,19 @@ struct Shape {
   Encoding encoding;
 };
 
-EncodedMesh diffuseMesh(const Shape& shape) {
-  EncodedMesh mesh;
-  mesh.layout = transport::Layout::Vertices;
-  mesh.positions.assign(shape.receivers, Vec3::Zero());
-  mesh.normals.assign(shape.receivers, Vec3::UnitZ());
-  mesh.bands = shape.bands;
-  mesh.channels = shape.channels;
-  mesh.vectors = encode::encode(
-      randomNumbers(shape.receivers * shape.channels * coefficientCount(shape.bands), 7),
-      shape.encoding);
-  return mesh;
+transfer::Vectors<Numbers> someVectors(const Shape& shape) {
+  return {shape.bands, shape.channels,
+          transfer::encode(
+              randomNumbers(shape.receivers * shape.channels * coefficientCount(shape.bands), 7),
+              shape.encoding)};
+}
+
+/// ReceiverWeights at the origin that look along `normals`.
+transfer::SharedReceivers looking(const std::vector<Vec3>& normals) {
+  transfer::Receivers receivers;
+  receivers.positions.assign(normals.size(), Vec3::Zero());
+  receivers.normals = normals;
+  return std::make_shared<const transfer::Receivers>(receivers);
 }
 
 std::vector<math::Isa> machineIsas() {
@@ -58,16 +64,17 @@ std::vector<math::Isa> machineIsas() {
 }
 
 /// M · L the slow way: every number decoded, everything in double.
-std::vector<double> naiveDiffuse(const EncodedMesh& mesh, const sh::RgbCoefficients& light) {
-  const std::vector<float> numbers = encode::decode(mesh.vectors);
-  const int n = coefficientCount(mesh.bands), count = std::min(n, coefficientCount(light.bands));
+std::vector<double> naiveDiffuse(const transfer::Vectors<Numbers>& vectors,
+                                 const sh::RgbCoefficients& light) {
+  const std::vector<float> numbers = transfer::decode(vectors.numbers);
+  const int n = coefficientCount(vectors.bands), count = std::min(n, coefficientCount(light.bands));
   std::vector<double> out;
-  for (std::size_t p = 0; p < mesh.receiverCount(); ++p)
+  for (std::size_t p = 0; p < numbers.size() / (vectors.channels * n); ++p)
     for (int c = 0; c < 3; ++c) {
       double sum = 0;
       for (int k = 0; k < count; ++k)
-        sum +=
-            double(numbers[(p * mesh.channels + c % mesh.channels) * n + k]) * light.channel(c)[k];
+        sum += double(numbers[(p * vectors.channels + c % vectors.channels) * n + k]) *
+               light.channel(c)[k];
       out.push_back(sum);
     }
   return out;
@@ -78,11 +85,11 @@ TEST(DiffuseShader, EqualsTheNaiveDotProduct) {
     for (const int channels : {1, 3})
       for (int bands = 1; bands <= 10; ++bands)
         for (const std::size_t receivers : {1u, 15u, 16u, 33u, 100u}) {
-          const EncodedMesh mesh = diffuseMesh({receivers, bands, channels, encoding});
+          const auto vectors = someVectors({receivers, bands, channels, encoding});
           const sh::RgbCoefficients light = randomLight(bands, 3);
           std::vector<float> out(3 * receivers);
-          DiffuseShader(mesh).shade(light, out);
-          const std::vector<double> expected = naiveDiffuse(mesh, light);
+          DiffuseShader(vectors).shade(light, out);
+          const std::vector<double> expected = naiveDiffuse(vectors, light);
           for (std::size_t i = 0; i < out.size(); ++i)
             ASSERT_NEAR(out[i], expected[i], 2e-6 * coefficientCount(bands))
                 << bands << " bands, " << channels << " channels, receiver " << i / 3;
@@ -91,21 +98,19 @@ TEST(DiffuseShader, EqualsTheNaiveDotProduct) {
 
 TEST(DiffuseShader, CutsOrPadsALightOfOtherBands) {
   for (const int lightBands : {1, 3, 8}) {
-    const EncodedMesh mesh = diffuseMesh({40, 5, 3, Encoding::Float16});
+    const auto vectors = someVectors({40, 5, 3, Encoding::Float16});
     const sh::RgbCoefficients light = randomLight(lightBands, 5);
     std::vector<float> out(3 * 40);
-    DiffuseShader(mesh).shade(light, out);
-    const std::vector<double> expected = naiveDiffuse(mesh, light);
+    DiffuseShader(vectors).shade(light, out);
+    const std::vector<double> expected = naiveDiffuse(vectors, light);
     for (std::size_t i = 0; i < out.size(); ++i) ASSERT_NEAR(out[i], expected[i], 5e-5);
   }
 }
 
-TEST(DiffuseShader, IsBlackWithoutDiffuseTransfer) {
-  EncodedMesh mesh = diffuseMesh({3, 2, 1, Encoding::Float32});
-  mesh.vectors = {};
-  std::vector<float> out(9, 1.0f);
-  DiffuseShader(mesh).shade(randomLight(2, 1), out);
-  for (const float x : out) EXPECT_EQ(x, 0.0f);
+TEST(LitMesh, IsBlackWithoutDiffuseTransfer) {
+  const LitMesh lit = lightMesh({}, randomLight(2, 1), {});
+  EXPECT_TRUE((lit.diffuseAt(ReceiverWeights::one(0)) == 0.0f).all());
+  EXPECT_TRUE((lit.glossyAt(ReceiverWeights::one(0), Vec3::UnitZ()) == 0.0f).all());
 }
 
 TEST(Kernels, EveryInstructionSetGivesTheSameDiffuseRadiance) {
@@ -114,8 +119,9 @@ TEST(Kernels, EveryInstructionSetGivesTheSameDiffuseRadiance) {
   const std::vector<float> light = randomNumbers(3 * count, 1);
   for (const int channels : {1, 3}) {
     const std::vector<float> single = randomNumbers(blocks * stride * channels * kBlock, 2);
-    const std::vector<std::uint16_t> half = encode::encode(single, Encoding::Float16).half;
-    const std::vector<float> rounded = encode::decode(encode::encode(single, Encoding::Float16));
+    const std::vector<std::uint16_t> half = transfer::encode(single, Encoding::Float16).half;
+    const std::vector<float> rounded =
+        transfer::decode(transfer::encode(single, Encoding::Float16));
     for (const math::Isa isa : machineIsas()) {
       std::vector<float> fromHalf(blocks * 3 * kBlock), fromSingle(fromHalf.size());
       kernelsFor(isa).diffuseHalf(half.data(), blocks, channels, stride, count, light.data(),
@@ -142,8 +148,8 @@ TEST(Kernels, EveryInstructionSetDecodesEveryHalf) {
   // One coefficient and a light of 1: the kernel's output is its input.
   std::vector<std::uint16_t> halves(1 << 16);
   for (std::size_t i = 0; i < halves.size(); ++i) halves[i] = std::uint16_t(i);
-  const std::vector<float> expected = encode::decode([&] {
-    encode::Numbers numbers;
+  const std::vector<float> expected = transfer::decode([&] {
+    transfer::Numbers numbers;
     numbers.encoding = Encoding::Float16;
     numbers.half = halves;
     return numbers;
@@ -161,35 +167,26 @@ TEST(Kernels, EveryInstructionSetDecodesEveryHalf) {
   }
 }
 
-EncodedMesh glossyMesh(std::size_t receivers, int outBands, int inBands, int channels,
-                       Encoding encoding) {
-  EncodedMesh mesh;
-  mesh.layout = transport::Layout::Vertices;
-  mesh.positions.assign(receivers, Vec3::Zero());
-  mesh.normals.assign(receivers, Vec3::UnitZ());
-  mesh.outBands = outBands;
-  mesh.inBands = inBands;
-  mesh.matrixChannels = channels;
-  mesh.glossy = Rgb(0.9f, 0.5f, 0.2f);
-  mesh.lobeExponent = 8.0f;
-  mesh.matrices = encode::encode(
-      randomNumbers(receivers * channels * coefficientCount(outBands) * coefficientCount(inBands),
-                    11),
-      encoding);
-  return mesh;
+transfer::Matrices<Numbers> someMatrices(std::size_t receivers, int outBands, int inBands,
+                                         int channels, Encoding encoding) {
+  return {outBands, inBands, channels,
+          transfer::encode(randomNumbers(receivers * channels * coefficientCount(outBands) *
+                                             coefficientCount(inBands),
+                                         11),
+                           encoding)};
 }
 
-TEST(TransferredRadiance, EqualsTheNaiveMatrixProduct) {
+TEST(ApplyMatrices, EqualsTheNaiveMatrixProduct) {
   for (const Encoding encoding : {Encoding::Float16, Encoding::Float32})
     for (const int channels : {1, 3})
       for (const auto& [outBands, inBands] : std::vector<std::pair<int, int>>{
                {1, 1}, {5, 5}, {5, 3}, {3, 5}, {10, 10}, {4, 4}, {2, 9}})
         for (const int lightBands : {inBands, 1, 10}) {
           const std::size_t receivers = 5;
-          const EncodedMesh mesh = glossyMesh(receivers, outBands, inBands, channels, encoding);
+          const auto matrices = someMatrices(receivers, outBands, inBands, channels, encoding);
           const sh::RgbCoefficients light = randomLight(lightBands, 9);
-          const std::vector<float> out = transferredRadiance(mesh, light);
-          const std::vector<float> m = encode::decode(mesh.matrices);
+          const std::vector<float> out = applyMatrices(matrices, light);
+          const std::vector<float> m = transfer::decode(matrices.numbers);
           const int rows = coefficientCount(outBands), columns = coefficientCount(inBands);
           ASSERT_EQ(out.size(), receivers * 3 * rows);
           for (std::size_t p = 0; p < receivers; ++p)
@@ -210,7 +207,7 @@ TEST(Kernels, EveryInstructionSetGivesTheSameTransferredRadiance) {
   const std::size_t receivers = 4;
   for (const int channels : {1, 3}) {
     const std::vector<float> single = randomNumbers(receivers * channels * rows * columns, 2);
-    const std::vector<std::uint16_t> half = encode::encode(single, Encoding::Float16).half;
+    const std::vector<std::uint16_t> half = transfer::encode(single, Encoding::Float16).half;
     std::vector<float> light(3 * paddedColumns(columns));
     for (int c = 0; c < 3; ++c)
       for (int j = 0; j < columns; ++j) light[c * paddedColumns(columns) + j] = float(c + j) - 3;
@@ -233,29 +230,47 @@ TEST(Kernels, EveryInstructionSetGivesTheSameTransferredRadiance) {
   }
 }
 
-asset::Asset assetOf(EncodedMesh transfer, const scene::Material& material) {
+/// A mesh whose vertices are the receivers.
+asset::Asset assetOf(transfer::SharedReceivers receivers, Response response) {
   asset::Asset asset;
-  asset.scene.materials.push_back(material);
+  asset.scene.materials.emplace_back();
   scene::Mesh mesh;
-  mesh.positions = transfer.positions;
-  mesh.normals = transfer.normals;
+  mesh.positions = receivers->positions;
+  mesh.normals = receivers->normals;
   asset.scene.meshes.push_back(mesh);
-  asset.transfer.meshes.push_back(std::move(transfer));
+  Surface surface{std::move(receivers), {}};
+  surface.responses.set(asset.transfer.kind, std::move(response));
+  asset.transfer.meshes.push_back(std::move(surface));
   return asset;
 }
 
+Response& responseOf(asset::Asset& asset) {
+  return *std::get<Surface>(asset.transfer.meshes[0]).responses.find(asset.transfer.kind);
+}
+
+const Rgb kGlossy(0.9f, 0.5f, 0.2f);
+
 /// A glossy receiver that sees its whole surroundings: the identity as transfer matrix.
-asset::Asset openGlossyPoint(int bands, const Vec3& normal, float exponent) {
-  EncodedMesh mesh = glossyMesh(1, bands, bands, 1, Encoding::Float32);
-  mesh.normals = {normal};
-  mesh.lobeExponent = exponent;
+asset::Asset openGlossyPoint(int bands, const Vec3& normal, float exponent,
+                             const Rgb& reflectance = kGlossy) {
   const int n = coefficientCount(bands);
-  mesh.matrices.single.assign(std::size_t(n) * n, 0.0f);
-  for (int i = 0; i < n; ++i) mesh.matrices.single[std::size_t(i) * n + i] = 1.0f;
-  scene::Material material;
-  material.diffuse = Rgb::Zero();
-  material.glossy = mesh.glossy;
-  return assetOf(std::move(mesh), material);
+  std::vector<float> identity(std::size_t(n) * n, 0.0f);
+  for (int i = 0; i < n; ++i) identity[std::size_t(i) * n + i] = 1.0f;
+  asset::Asset asset = assetOf(
+      looking({normal}), {{},
+                          transfer::Glossy<Numbers>{
+                              {reflectance, exponent},
+                              {bands, bands, 1, transfer::encode(identity, Encoding::Float32)}}});
+  asset.scene.materials[0].diffuse = Rgb::Zero();
+  asset.scene.materials[0].glossy = reflectance;
+  return asset;
+}
+
+ReceiverView seenFrom(const Vec3& eye, std::optional<float> lobeExponent = {}) {
+  ReceiverView view;
+  view.eye = eye;
+  view.showing.lobeExponent = lobeExponent;
+  return view;
 }
 
 // Equation 12 against what it stands for: k ∫ L(s) (r+1)/2π max(0, s·R)^r ds, by quadrature. With
@@ -269,7 +284,7 @@ TEST(ExitRadiance, GlossyIsTheIntegralOverTheLobe) {
     for (const float exponent : {0.0f, 4.0f, 16.0f, 64.0f}) {
       const asset::Asset asset = openGlossyPoint(bands, normal, 1.0f);
       const sh::RgbCoefficients light = randomLight(bands, 21);
-      const Rgb out = exitRadiance(asset, 0, light, {eye, exponent, {}})[0];
+      const Rgb out = exitRadiance(asset, 0, light, seenFrom(eye, exponent))[0];
 
       // Midpoints in cos θ and azimuth around R; the integrand is smooth on the hemisphere.
       const Vec3d t = reflected.unitOrthogonal(), b = reflected.cross(t);
@@ -285,7 +300,7 @@ TEST(ExitRadiance, GlossyIsTheIntegralOverTheLobe) {
         }
       integral *= 2 * kPi / (double(zs) * phis);
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(out[c], asset.transfer.meshes[0].glossy[c] * integral[c], 2e-3)
+        EXPECT_NEAR(out[c], kGlossy[c] * integral[c], 2e-3)
             << bands << " bands, exponent " << exponent;
     }
 }
@@ -295,19 +310,20 @@ TEST(ExitRadiance, SeesAlongTheNormalWithoutAnEye) {
   const asset::Asset asset = openGlossyPoint(4, normal, 10.0f);
   const sh::RgbCoefficients light = randomLight(4, 2);
   const Rgb along = exitRadiance(asset, 0, light)[0];
-  const Rgb eye = exitRadiance(asset, 0, light, {Vec3(3.0f * normal), {}, {}})[0];
+  const Rgb eye = exitRadiance(asset, 0, light, seenFrom(3.0f * normal))[0];
   EXPECT_TRUE(along.isApprox(eye, 1e-5f));
 }
 
 TEST(ExitRadiance, AppliesTheBaseColourOnlyWhereTheVectorsLackIt) {
-  EncodedMesh mesh = diffuseMesh({3, 2, 1, Encoding::Float32});
-  asset::Asset asset = assetOf(mesh, {});
+  const auto vectors = someVectors({3, 2, 1, Encoding::Float32});
+  asset::Asset asset = assetOf(looking(std::vector<Vec3>(3, Vec3::UnitZ())),
+                               {transfer::Diffuse<Numbers>{{}, vectors}, {}});
   asset.scene.meshes[0].colors = {Rgb(0.5f, 1, 1), Rgb(1, 0.25f, 1), Rgb(1, 1, 0.125f)};
   const sh::RgbCoefficients light = randomLight(2, 4);
   std::vector<float> plain(9);
-  DiffuseShader(mesh).shade(light, plain);
+  DiffuseShader(vectors).shade(light, plain);
   const std::vector<Rgb> included = exitRadiance(asset, 0, light);
-  asset.transfer.meshes[0].albedo = transport::Albedo::BaseColor;
+  responseOf(asset).diffuse->albedo = transfer::Albedo::BaseColor;
   const std::vector<Rgb> outside = exitRadiance(asset, 0, light);
   for (int p = 0; p < 3; ++p)
     for (int c = 0; c < 3; ++c) {
@@ -317,10 +333,10 @@ TEST(ExitRadiance, AppliesTheBaseColourOnlyWhereTheVectorsLackIt) {
 }
 
 TEST(ExitRadiance, IsEmptyForAMirror) {
-  EncodedMesh none;
-  scene::Material mirror;
-  mirror.mirror = Rgb::Ones();
-  EXPECT_TRUE(exitRadiance(assetOf(none, mirror), 0, randomLight(3, 1)).empty());
+  asset::Asset asset = assetOf(looking({}), {});
+  asset.scene.materials[0].mirror = Rgb::Ones();
+  asset.transfer.meshes[0] = transfer::NoTransfer{};
+  EXPECT_TRUE(exitRadiance(asset, 0, randomLight(3, 1)).empty());
 }
 
 // A unit uniform light on an open white diffuse surface leaves radiance 1; on a glossy one with
@@ -330,27 +346,28 @@ TEST(ExitRadiance, UniformLightLeavesWithItsOwnRadiance) {
   for (int c = 0; c < 3; ++c) uniform.channel(c)[0] = float(std::sqrt(4 * kPi));
   const Vec3 normal = Vec3(1, 2, -2) / 3.0f;
 
-  EncodedMesh diffuse = diffuseMesh({1, 5, 1, Encoding::Float32});
-  diffuse.normals = {normal};
-  const sh::ZonalMoments cosine = sh::clampedCosine(5);
-  sh::turnTo(cosine, normal, std::span<float>(diffuse.vectors.single));
-  for (float& x : diffuse.vectors.single) x /= float(kPi);
-  const Rgb out = exitRadiance(assetOf(diffuse, {}), 0, uniform)[0];
+  std::vector<float> cosine(25);
+  sh::turnTo(sh::clampedCosine(5), normal, std::span<float>(cosine));
+  for (float& x : cosine) x /= float(kPi);
+  const asset::Asset diffuse = assetOf(
+      looking({normal}),
+      {transfer::Diffuse<Numbers>{{}, {5, 1, transfer::encode(cosine, Encoding::Float32)}}, {}});
+  const Rgb out = exitRadiance(diffuse, 0, uniform)[0];
   EXPECT_TRUE(out.isApprox(Rgb::Ones(), 1e-5f));
 
-  asset::Asset glossy = openGlossyPoint(5, normal, 20.0f);
-  glossy.transfer.meshes[0].glossy = Rgb::Ones();
+  const asset::Asset glossy = openGlossyPoint(5, normal, 20.0f, Rgb::Ones());
   EXPECT_TRUE(exitRadiance(glossy, 0, uniform)[0].isApprox(Rgb::Ones(), 1e-5f));
 }
 
 TEST(Receivers, TexelWeightsAreBilinearAndClamped) {
-  const Receivers inside = Receivers::ofTexels(4, 3, Vec2(0.5f, 0.5f));  // between texels 1 and 2
+  const ReceiverWeights inside =
+      ReceiverWeights::ofTexels(4, 3, Vec2(0.5f, 0.5f));  // between texels 1 and 2
   EXPECT_EQ(inside.index, (std::array<std::uint32_t, 4>{5, 6, 9, 10}));
   EXPECT_NEAR(inside.weight[0], 0.5f, 1e-6f);
   EXPECT_NEAR(inside.weight[1], 0.5f, 1e-6f);
   EXPECT_NEAR(inside.weight[2] + inside.weight[3], 0.0f, 1e-6f);
   for (const Vec2& uv : {Vec2(-3, -3), Vec2(7, 9), Vec2(0, 1), Vec2(1, 0)}) {
-    const Receivers at = Receivers::ofTexels(4, 3, uv);
+    const ReceiverWeights at = ReceiverWeights::ofTexels(4, 3, uv);
     float sum = 0;
     for (int k = 0; k < 4; ++k) {
       EXPECT_LT(at.index[k], 12u);

@@ -10,7 +10,8 @@
 
 namespace lambent::shade::test {
 
-using encode::Encoding;
+using transfer::Encoding;
+using transfer::Numbers;
 
 scene::Mesh sphere(const Vec3& center, float radius, int rings) {
   scene::Mesh mesh;
@@ -64,14 +65,6 @@ int addTexture(scene::Scene& scene) {
   return int(scene.textures.size()) - 1;
 }
 
-encode::EncodedMesh atVertices(const scene::Mesh& mesh) {
-  encode::EncodedMesh transfer;
-  transfer.layout = transport::Layout::Vertices;
-  transfer.positions = mesh.positions;
-  transfer.normals = mesh.normals;
-  return transfer;
-}
-
 Rgb reflectanceAt(const Vec3& p) {
   return Rgb(0.5f + 0.4f * std::sin(5 * p.x()), 0.5f + 0.4f * std::sin(4 * p.y() + 1),
              0.5f + 0.4f * std::sin(6 * p.z() + 2));
@@ -94,31 +87,39 @@ void appendMatrix(std::vector<float>& out, int outBands, int inBands, const Vec3
 }
 
 void add(asset::Asset& asset, scene::Mesh mesh, scene::Material material,
-         encode::EncodedMesh transfer) {
+         transfer::EncodedMesh transfer) {
   mesh.material = int(asset.scene.materials.size());
   asset.scene.materials.push_back(std::move(material));
   asset.scene.meshes.push_back(std::move(mesh));
   asset.transfer.meshes.push_back(std::move(transfer));
 }
 
+void addSurface(asset::Asset& asset, scene::Mesh mesh, scene::Material material,
+                transfer::Receivers receivers, transfer::SurfaceResponse<Numbers> response) {
+  transfer::Surface<Numbers> surface{
+      std::make_shared<const transfer::Receivers>(std::move(receivers)), {}};
+  surface.responses.set(asset.transfer.kind, std::move(response));
+  add(asset, std::move(mesh), std::move(material), std::move(surface));
+}
+
 }  // namespace
 
 void addDiffuse(asset::Asset& asset, scene::Mesh mesh, const DiffuseOptions& options) {
   scene::Material material;
-  encode::EncodedMesh transfer = atVertices(mesh);
-  transfer.bands = options.bands;
-  transfer.channels = options.channels;
+  transfer::Diffuse<Numbers> diffuse{{}, {options.bands, options.channels, {}}};
   if (options.texture) {
     material.baseColorTexture = addTexture(asset.scene);
-    transfer.albedo = transport::Albedo::BaseColor;
+    diffuse.albedo = transfer::Albedo::BaseColor;
   }
   std::vector<float> vectors;
   for (std::size_t p = 0; p < mesh.positions.size(); ++p)
     for (int c = 0; c < options.channels; ++c)
       appendVector(vectors, options.bands, mesh.normals[p],
                    options.channels == 1 ? 0.8f : reflectanceAt(mesh.positions[p])[c]);
-  transfer.vectors = encode::encode(vectors, options.encoding);
-  add(asset, std::move(mesh), std::move(material), std::move(transfer));
+  diffuse.vectors.numbers =
+      transfer::encode(vectors, options.encoding, diffuse.vectors.perVector());
+  const transfer::Receivers receivers{mesh.positions, mesh.normals, transfer::AtVertices{}};
+  addSurface(asset, std::move(mesh), std::move(material), receivers, {std::move(diffuse), {}});
 }
 
 void addGlossy(asset::Asset& asset, scene::Mesh mesh, int outBands, int inBands, int channels,
@@ -127,14 +128,6 @@ void addGlossy(asset::Asset& asset, scene::Mesh mesh, int outBands, int inBands,
   material.diffuse = Rgb(0.1f, 0.1f, 0.2f);
   material.glossy = Rgb(0.8f, 0.6f, 0.3f);
   material.lobeExponent = 12.0f;
-  encode::EncodedMesh transfer = atVertices(mesh);
-  transfer.bands = inBands;
-  transfer.channels = 3;
-  transfer.outBands = outBands;
-  transfer.inBands = inBands;
-  transfer.matrixChannels = channels;
-  transfer.glossy = material.glossy;
-  transfer.lobeExponent = material.lobeExponent;
   std::vector<float> vectors, matrices;
   for (std::size_t p = 0; p < mesh.positions.size(); ++p) {
     for (int c = 0; c < 3; ++c)
@@ -143,44 +136,40 @@ void addGlossy(asset::Asset& asset, scene::Mesh mesh, int outBands, int inBands,
       appendMatrix(matrices, outBands, inBands, mesh.normals[p],
                    channels == 1 ? 1.0f : reflectanceAt(mesh.positions[p])[c]);
   }
-  transfer.vectors = encode::encode(vectors, encoding);
-  transfer.matrices = encode::encode(matrices, encoding);
-  add(asset, std::move(mesh), std::move(material), std::move(transfer));
+  const transfer::Receivers receivers{mesh.positions, mesh.normals, transfer::AtVertices{}};
+  const transfer::Lobe lobe{material.glossy, material.lobeExponent};
+  addSurface(asset, std::move(mesh), std::move(material), receivers,
+             {transfer::Diffuse<Numbers>{{}, {inBands, 3, transfer::encode(vectors, encoding)}},
+              transfer::Glossy<Numbers>{
+                  lobe, {outBands, inBands, channels, transfer::encode(matrices, encoding)}}});
 }
 
 void addTexels(asset::Asset& asset, scene::Mesh mesh, const Vec3& normal, int width, int height,
                int outBands, Encoding encoding) {
   const int bands = 4;
   scene::Material material;
-  encode::EncodedMesh transfer;
-  transfer.layout = transport::Layout::Texels;
-  transfer.width = width;
-  transfer.height = height;
-  transfer.bands = bands;
-  transfer.channels = 3;
-  if (outBands > 0) {
-    material.glossy = Rgb(0.5f, 0.5f, 0.6f);
-    transfer.glossy = material.glossy;
-    transfer.lobeExponent = 20.0f;
-    transfer.outBands = outBands;
-    transfer.inBands = bands;
-    transfer.matrixChannels = 1;
-  }
+  transfer::Receivers receivers;
   std::vector<float> vectors, matrices;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      transfer.positions.push_back(Vec3::Zero());
-      transfer.normals.push_back(normal);
-      transfer.covered.push_back(1);
+      receivers.positions.push_back(Vec3::Zero());
+      receivers.normals.push_back(normal);
       // Rings around a corner, redder to the right and bluer downwards: no symmetry hides a flip.
       const float ring = 0.5f + 0.5f * std::cos(0.9f * std::hypot(float(x), float(y)));
       const Rgb rho(float(x) / width, 0.6f * ring, float(y) / height);
       for (int c = 0; c < 3; ++c) appendVector(vectors, bands, normal, rho[c]);
       if (outBands > 0) appendMatrix(matrices, outBands, bands, normal, ring);
     }
-  transfer.vectors = encode::encode(vectors, encoding);
-  if (outBands > 0) transfer.matrices = encode::encode(matrices, encoding);
-  add(asset, std::move(mesh), std::move(material), std::move(transfer));
+  receivers.where = transfer::AtTexels{
+      width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height), 1)};
+  transfer::SurfaceResponse<Numbers> response;
+  response.diffuse = {{}, {bands, 3, transfer::encode(vectors, encoding)}};
+  if (outBands > 0) {
+    material.glossy = Rgb(0.5f, 0.5f, 0.6f);
+    response.glossy = {{material.glossy, 20.0f},
+                       {outBands, bands, 1, transfer::encode(matrices, encoding)}};
+  }
+  addSurface(asset, std::move(mesh), std::move(material), receivers, std::move(response));
 }
 
 void addMirror(asset::Asset& asset, scene::Mesh mesh, const Rgb& reflectance) {

@@ -18,7 +18,7 @@ scene::Mesh floor(const Vec3& center, float halfSide);
 struct DiffuseOptions {
   int bands = 5;
   int channels = 1;
-  encode::Encoding encoding = encode::Encoding::Float32;
+  transfer::Encoding encoding = transfer::Encoding::Float32;
   bool texture = false;  ///< a base-colour texture, kept outside the vectors
 };
 /// Unshadowed diffuse transfer at the vertices; with three channels, a reflectance that differs
@@ -26,11 +26,11 @@ struct DiffuseOptions {
 void addDiffuse(asset::Asset& asset, scene::Mesh mesh, const DiffuseOptions& options);
 /// Diffuse and glossy at once: hemispheres as glossy matrices, at the vertices.
 void addGlossy(asset::Asset& asset, scene::Mesh mesh, int outBands, int inBands, int channels,
-               encode::Encoding encoding);
+               transfer::Encoding encoding);
 /// A grid of texels over the mesh's uv, diffuse and (if outBands > 0) glossy, that differ from
 /// texel to texel. All receivers look along `normal`.
 void addTexels(asset::Asset& asset, scene::Mesh mesh, const Vec3& normal, int width, int height,
-               int outBands, encode::Encoding encoding);
+               int outBands, transfer::Encoding encoding);
 void addMirror(asset::Asset& asset, scene::Mesh mesh, const Rgb& reflectance);
 
 /// A sky with a warm sun, smooth enough for an image of 64×32, and its harmonics.

@@ -6,11 +6,12 @@
 #include "lambent/sh/rotation.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/macro_transport.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::shade::test {
 
-meso::RadianceTransferTexture emptyRtt(int width, int height, int views, int bands) {
-  meso::RadianceTransferTexture rtt;
+transfer::SimulatedRtt emptyRtt(int width, int height, int views, int bands) {
+  transfer::SimulatedRtt rtt;
   rtt.name = "patch";
   rtt.width = width;
   rtt.height = height;
@@ -39,17 +40,17 @@ float hashed(std::uint32_t n) {
 
 }  // namespace
 
-meso::RadianceTransferTexture flatRtt(int width, int height, int views, int bands,
-                                      const Rgb& reflectance) {
-  meso::RadianceTransferTexture rtt = emptyRtt(width, height, views, bands);
+transfer::SimulatedRtt flatRtt(int width, int height, int views, int bands,
+                               const Rgb& reflectance) {
+  transfer::SimulatedRtt rtt = emptyRtt(width, height, views, bands);
   const std::vector<float> response = diffuseResponse(bands, Vec3::UnitZ());
   for (std::size_t i = 0; i < rtt.values.size(); ++i)
     rtt.values[i] = response[i / rtt.planeSize()] * reflectance[i % 3];
   return rtt;
 }
 
-meso::RadianceTransferTexture bumpyRtt(int width, int height, int views, int bands) {
-  meso::RadianceTransferTexture rtt = emptyRtt(width, height, views, bands);
+transfer::SimulatedRtt bumpyRtt(int width, int height, int views, int bands) {
+  transfer::SimulatedRtt rtt = emptyRtt(width, height, views, bands);
   const float turn = 2.0f * float(kPi);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -82,8 +83,8 @@ std::vector<Vec3> tangentsAlong(const scene::Mesh& mesh, const Vec3& direction) 
   return tangents;
 }
 
-synthesis::IdMap patchworkMap(int width, int height, const Vec2& tiles) {
-  synthesis::IdMap map;
+transfer::IdMap patchworkMap(int width, int height, const Vec2& tiles) {
+  transfer::IdMap map;
   map.width = width;
   map.height = height;
   for (int y = 0; y < height; ++y)
@@ -97,21 +98,17 @@ synthesis::IdMap patchworkMap(int width, int height, const Vec2& tiles) {
   return map;
 }
 
-void addPatched(asset::Asset& asset, scene::Mesh mesh, const meso::RadianceTransferTexture& rtt,
+void addPatched(asset::Asset& asset, scene::Mesh mesh, const transfer::SimulatedRtt& rtt,
                 const SpreadOptions& options) {
-  encode::EncodedMesh transfer;
-  transfer.layout = transport::Layout::Vertices;
-  transfer.positions = mesh.positions;
-  transfer.normals = mesh.normals;
-  encode::EncodedBiScale& biScale = transfer.biScale.emplace();
-  biScale.rtt = int(asset.transfer.rtts.size());
+  using transfer::Kind;
+  transfer::BiScale<transfer::Numbers> biScale;
+  biScale.receivers = std::make_shared<const transfer::Receivers>(
+      transfer::Receivers{mesh.positions, mesh.normals, transfer::AtVertices{}});
   biScale.tangents = tangentsAlong(mesh, options.tangent);
-  biScale.idMap = options.idMap;
-  biScale.tiles = options.tiles;
-  biScale.scale = options.scale;
+  biScale.patch = {int(asset.transfer.rtts.size()), options.scale, transfer::Tiles{options.tiles}};
+  if (options.idMap) biScale.patch.place = *options.idMap;
+  biScale.bands = options.shadowedBands > 0 ? options.shadowedBands : rtt.bands;
   if (options.shadowedBands > 0) {
-    biScale.bands = options.shadowedBands;
-    biScale.channels = options.channels;
     std::vector<float> shadowed, interreflected;
     for (std::size_t p = 0; p < mesh.normals.size(); ++p) {
       const Mat3 frame = worldFromPatch(mesh.normals[p], biScale.tangents[p]);
@@ -122,17 +119,20 @@ void addPatched(asset::Asset& asset, scene::Mesh mesh, const meso::RadianceTrans
         for (const double r : rotation)
           interreflected.push_back(float((0.5 + 0.1 * c + 0.1 * hashed(std::uint32_t(p))) * r));
     }
-    const std::size_t block =
-        std::size_t(sh::coefficientCount(biScale.bands)) * sh::coefficientCount(biScale.bands);
-    biScale.shadowed = encode::encode(shadowed, options.matrices, block);
-    if (options.channels > 0)
-      biScale.interreflected = encode::encode(interreflected, options.matrices, block);
+    const auto set = [&](Kind kind, int channels, const std::vector<float>& numbers) {
+      transfer::Matrices<transfer::Numbers> matrices{biScale.bands, biScale.bands, channels, {}};
+      matrices.numbers = transfer::encode(numbers, options.matrices, matrices.perMatrix());
+      biScale.matrices.set(kind, std::move(matrices));
+    };
+    set(Kind::Shadowed, 1, shadowed);
+    if (options.channels > 0) set(Kind::Interreflected, options.channels, interreflected);
   }
-  asset.transfer.rtts.push_back(encode::encode(rtt, options.encoding));
+  asset.transfer.bands = std::max(asset.transfer.bands, biScale.bands);
+  asset.transfer.rtts.push_back(transfer::encode(rtt, options.encoding));
   mesh.material = int(asset.scene.materials.size());
   asset.scene.materials.emplace_back();
   asset.scene.meshes.push_back(std::move(mesh));
-  asset.transfer.meshes.push_back(std::move(transfer));
+  asset.transfer.meshes.push_back(std::move(biScale));
 }
 
 }  // namespace lambent::shade::test

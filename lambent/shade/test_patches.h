@@ -7,26 +7,25 @@
 #include <vector>
 
 #include "lambent/asset/asset.h"
-#include "lambent/meso/radiance_transfer_texture.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::shade::test {
 
 /// Positions, views a side and bands; values zero.
-meso::RadianceTransferTexture emptyRtt(int width, int height, int views, int bands);
+transfer::SimulatedRtt emptyRtt(int width, int height, int views, int bands);
 
 /// A flat patch of one reflectance: B_i = ρ/π Â_l y_i(+z) everywhere, from everywhere.
-meso::RadianceTransferTexture flatRtt(int width, int height, int views, int bands,
-                                      const Rgb& reflectance);
+transfer::SimulatedRtt flatRtt(int width, int height, int views, int bands, const Rgb& reflectance);
 
 /// Bumps with colours, all different, that answer differently to every view: nothing about it is
 /// symmetric. 1 m a side.
-meso::RadianceTransferTexture bumpyRtt(int width, int height, int views, int bands);
+transfer::SimulatedRtt bumpyRtt(int width, int height, int views, int bands);
 
 /// Every coefficient but the constant one is zero; that of position (x, y), view (vx, vy) is the
 /// colour of `of`. Under uniform light of radiance 1 the patch shows these colours.
 template <class Colour>
-meso::RadianceTransferTexture paintedRtt(int width, int height, int views, Colour of) {
-  meso::RadianceTransferTexture rtt = emptyRtt(width, height, views, 1);
+transfer::SimulatedRtt paintedRtt(int width, int height, int views, Colour of) {
+  transfer::SimulatedRtt rtt = emptyRtt(width, height, views, 1);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int vy = 0; vy < views; ++vy)
@@ -43,13 +42,13 @@ std::vector<Vec3> tangentsAlong(const scene::Mesh& mesh, const Vec3& direction);
 
 /// An id map whose places run on as the texture coordinates do, `tiles` times, but jump by a random
 /// amount from square to square of 8 texels.
-synthesis::IdMap patchworkMap(int width, int height, const Vec2& tiles);
+transfer::IdMap patchworkMap(int width, int height, const Vec2& tiles);
 
 struct SpreadOptions {
-  encode::Encoding encoding = encode::Encoding::Float32;
-  encode::Encoding matrices = encode::Encoding::Float32;
+  transfer::Encoding encoding = transfer::Encoding::Float32;
+  transfer::Encoding matrices = transfer::Encoding::Float32;
   Vec3 tangent = Vec3(1.0f, 0.1f, 0.05f);
-  std::optional<synthesis::IdMap> idMap;
+  std::optional<transfer::IdMap> idMap;
   Vec2 tiles = Vec2(3.0f, 2.0f);
   float scale = 1.0f;
   int shadowedBands = 0;  ///< 0: no matrices
@@ -59,7 +58,7 @@ struct SpreadOptions {
 /// Adds `mesh` with the patch spread over it. Matrices: the rotation into the tangent frame, of
 /// which shadowed ones keep ¾, and interreflected ones ½ with a tint that differs by channel and
 /// receiver.
-void addPatched(asset::Asset& asset, scene::Mesh mesh, const meso::RadianceTransferTexture& rtt,
+void addPatched(asset::Asset& asset, scene::Mesh mesh, const transfer::SimulatedRtt& rtt,
                 const SpreadOptions& options);
 
 }  // namespace lambent::shade::test

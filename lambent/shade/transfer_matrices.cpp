@@ -13,8 +13,8 @@
 
 namespace lambent::shade {
 
-using encode::Encoding;
-using encode::Numbers;
+using transfer::Encoding;
+using transfer::Numbers;
 
 namespace {
 
@@ -26,26 +26,30 @@ bool scalesAreOfRows(const Numbers& matrices, int columns) {
   return matrices.block % std::size_t(columns) == 0;
 }
 
-void scaleRows(const Numbers& matrices, const MatrixShape& shape, std::size_t receiver,
-               float* product) {
-  const std::size_t columns = std::size_t(shape.columns), rows = std::size_t(shape.rows);
+void scaleRows(const transfer::Matrices<Numbers>& matrices, std::size_t receiver, float* product) {
+  const std::size_t columns = std::size_t(sh::coefficientCount(matrices.inBands));
+  const std::size_t rows = std::size_t(sh::coefficientCount(matrices.outBands));
   for (int c = 0; c < 3; ++c) {
-    const std::size_t matrix = receiver * shape.channels + (shape.channels == 3 ? c : 0);
+    const std::size_t matrix = receiver * matrices.channels + (matrices.channels == 3 ? c : 0);
     for (std::size_t i = 0; i < rows; ++i)
       product[c * rows + i] *=
-          matrices.scales[(matrix * rows + i) * columns / matrices.block] / kSnorm8One;
+          matrices.numbers.scales[(matrix * rows + i) * columns / matrices.numbers.block] /
+          kSnorm8One;
   }
 }
 
 }  // namespace
 
-std::vector<float> applyMatrices(const Numbers& matrices, const MatrixShape& shape,
+std::vector<float> applyMatrices(const transfer::Matrices<Numbers>& whole,
                                  const sh::RgbCoefficients& light) {
-  const int rows = shape.rows, columns = shape.columns, channels = shape.channels;
+  const Numbers& matrices = whole.numbers;
+  const int rows = sh::coefficientCount(whole.outBands);
+  const int columns = sh::coefficientCount(whole.inBands), channels = whole.channels;
   const int padded = paddedColumns(columns);
   const std::size_t size = std::size_t(channels) * rows * columns;
   assert(channels == 1 || channels == 3);
-  assert(matrices.size() == shape.receivers * size);
+  assert(matrices.size() % size == 0);
+  const std::size_t receivers = matrices.size() / size;
 
   std::vector<float> padLight(3 * std::size_t(padded));
   const int count = std::min(columns, sh::coefficientCount(light.bands));
@@ -53,7 +57,7 @@ std::vector<float> applyMatrices(const Numbers& matrices, const MatrixShape& sha
     std::copy_n(light.channel(c).begin(), count, padLight.begin() + c * padded);
 
   const Kernels kernels = kernelsFor(math::bestIsa());
-  std::vector<float> out(shape.receivers * 3 * rows);
+  std::vector<float> out(receivers * 3 * rows);
   const auto run = [&](std::size_t begin, std::size_t end) {
     std::vector<float> scratch(size + kBlock);
     float* at = out.data() + begin * 3 * rows;
@@ -70,12 +74,11 @@ std::vector<float> applyMatrices(const Numbers& matrices, const MatrixShape& sha
         if (scalesAreOfRows(matrices, columns)) {
           kernels.matrixByte(matrices.byte.data() + begin * size, end - begin, channels, rows,
                              columns, padLight.data(), scratch.data(), at);
-          for (std::size_t p = begin; p < end; ++p, at += 3 * rows)
-            scaleRows(matrices, shape, p, at);
+          for (std::size_t p = begin; p < end; ++p, at += 3 * rows) scaleRows(whole, p, at);
         } else {
           std::vector<float> decoded(size);
           for (std::size_t p = begin; p < end; ++p, at += 3 * rows) {
-            encode::decode(matrices, p * size, decoded);
+            transfer::decode(matrices, p * size, decoded);
             kernels.matrixSingle(decoded.data(), 1, channels, rows, columns, padLight.data(),
                                  scratch.data(), at);
           }
@@ -83,7 +86,7 @@ std::vector<float> applyMatrices(const Numbers& matrices, const MatrixShape& sha
         break;
     }
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, shape.receivers, 256),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers, 256),
                     [&](const auto& range) { run(range.begin(), range.end()); });
   return out;
 }

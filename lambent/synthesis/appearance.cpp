@@ -28,7 +28,7 @@ using Plane = Eigen::Map<const RowMatrix>;  ///< positions × (views · channels
 /// and less its mean: never written down, only multiplied with.
 class Responses {
  public:
-  explicit Responses(const meso::RadianceTransferTexture& rtt)
+  explicit Responses(const transfer::SimulatedRtt& rtt)
       : rows_(Eigen::Index(rtt.positionCount())), columns_(Eigen::Index(rtt.viewCount() * 3)) {
     const auto coefficients = std::size_t(rtt.bands) * std::size_t(rtt.bands);
     for (std::size_t c = 0; c < coefficients; ++c) {
@@ -111,7 +111,7 @@ Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& m) {
 
 }  // namespace
 
-Appearance appearanceOf(const meso::RadianceTransferTexture& rtt, int dimensions) {
+Appearance appearanceOf(const transfer::SimulatedRtt& rtt, int dimensions) {
   assert(dimensions >= 1 && rtt.width >= 1 && rtt.height >= 1 && rtt.views >= 1);
   assert(rtt.values.size() == rtt.planeSize() * std::size_t(rtt.bands) * std::size_t(rtt.bands));
   const Responses responses(rtt);

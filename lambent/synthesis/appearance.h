@@ -1,11 +1,12 @@
 // What a patch looks like, place by place, in a few numbers: what synthesis compares instead of
-// whole responses (Lefebvre 2006 §3; the textons of Tong 2002 did this at the cost of hours).
+// whole responses (lefebvre2006appearance §3; the textons of tong2002synthesis did this at the cost
+// of hours).
 #pragma once
 
 #include <vector>
 
 #include "lambent/math/types.h"
-#include "lambent/meso/radiance_transfer_texture.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::synthesis {
 
@@ -24,7 +25,7 @@ struct Appearance {
 /// mean square difference of their exit radiance under light whose every coefficient of band l has
 /// unit variance over max(l, 1)²; views weigh by their cosine, channels alike. `dimensions` ≥ 1;
 /// those beyond the responses' rank are 0.
-Appearance appearanceOf(const meso::RadianceTransferTexture& rtt, int dimensions = 8);
+Appearance appearanceOf(const transfer::SimulatedRtt& rtt, int dimensions = 8);
 
 /// How far the patch repeats itself within its own period, 0 … 1: the largest autocorrelation of
 /// the descriptors at a shift of a quarter of the period or more. A plain weave or a grid of holes

@@ -14,7 +14,7 @@ namespace lambent::synthesis {
 namespace {
 
 /// The definition: the weighted distance of two places' whole responses.
-double squaredDistance(const meso::RadianceTransferTexture& rtt, int a, int b) {
+double squaredDistance(const transfer::SimulatedRtt& rtt, int a, int b) {
   double sum = 0.0, weights = 0.0;
   for (int vy = 0; vy < rtt.views; ++vy) {
     for (int vx = 0; vx < rtt.views; ++vx) {
@@ -47,8 +47,8 @@ double squaredDistance(const Appearance& appearance, int a, int b) {
 }
 
 /// Responses of the rank given, plus a little of everything.
-meso::RadianceTransferTexture lowRank(int rank, float noise) {
-  meso::RadianceTransferTexture rtt;
+transfer::SimulatedRtt lowRank(int rank, float noise) {
+  transfer::SimulatedRtt rtt;
   rtt.width = 16, rtt.height = 12, rtt.views = 3, rtt.bands = 3;
   rtt.values.resize(9 * rtt.planeSize());
   for (int c = 0; c < 9; ++c)
@@ -69,7 +69,7 @@ meso::RadianceTransferTexture lowRank(int rank, float noise) {
 }
 
 TEST(Appearance, DistancesAreThoseOfWholeResponses) {
-  const meso::RadianceTransferTexture rtt = lowRank(5, 0.0f);
+  const transfer::SimulatedRtt rtt = lowRank(5, 0.0f);
   const Appearance appearance = appearanceOf(rtt, 8);
   EXPECT_NEAR(appearance.keptVariance, 1.0, 1e-4);
   for (int b = 1; b < 190; b += 7) {
@@ -79,7 +79,7 @@ TEST(Appearance, DistancesAreThoseOfWholeResponses) {
 }
 
 TEST(Appearance, TheMostImportantComponentsAreKept) {
-  const meso::RadianceTransferTexture rtt = lowRank(6, 0.05f);
+  const transfer::SimulatedRtt rtt = lowRank(6, 0.05f);
   double last = 0.0;
   for (int dimensions : {1, 3, 6, 12}) {
     const Appearance appearance = appearanceOf(rtt, dimensions);
@@ -103,7 +103,7 @@ TEST(Appearance, APlainPatchLooksAlikeEverywhere) {
 }
 
 TEST(Appearance, TheSameAtAnyNumberOfThreads) {
-  const meso::RadianceTransferTexture rtt = patchOf(stuccoAlbedo, 32, 4);
+  const transfer::SimulatedRtt rtt = patchOf(stuccoAlbedo, 32, 4);
   std::vector<float> values[2];
   for (int i = 0; i < 2; ++i) {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,

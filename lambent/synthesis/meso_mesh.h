@@ -1,4 +1,5 @@
-// The dense mesh that texture is synthesised on (Sloan 2003 §4.3, "meso-mesh"; Turk 2001 §4).
+// The dense mesh that texture is synthesised on (sloan2003biscale §4.3, "meso-mesh";
+// turk2001texture §4).
 #pragma once
 
 #include <cstdint>

@@ -109,9 +109,9 @@ std::uint16_t wrapped(double place) {
 
 }  // namespace
 
-Result<IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
-                       std::span<const Vec2> coordinates, const IdMapOptions& options,
-                       const Progress& progress) {
+Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
+                                 std::span<const Vec2> coordinates, const IdMapOptions& options,
+                                 const Progress& progress) {
   if (options.size < 1 || options.size > 16384)
     return report::badUsage("an id map must have 1 to 16384 texels a side");
   if (options.neighbours < 1)
@@ -137,7 +137,7 @@ Result<IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
   parameters.leaf_max_size = 16;
   const Tree tree(3, points, parameters);
 
-  IdMap ids;
+  transfer::IdMap ids;
   ids.width = ids.height = options.size;
   ids.ids.resize(2 * map.size());
   const auto place = [&](std::uint32_t texel, Search& search) {

@@ -6,8 +6,8 @@
 #include "lambent/atlas/atlas.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
-#include "lambent/synthesis/id_map.h"
 #include "lambent/synthesis/meso_mesh.h"
+#include "lambent/transfer/id_map.h"
 
 namespace lambent::synthesis {
 
@@ -22,8 +22,8 @@ struct IdMapOptions {
 /// texels around them (each takes the nearest chart texel's id). A texel's id is that of the
 /// meso-vertex it finds, moved on by the texel's own offset from that vertex in the vertex's
 /// tangent plane: the map is as smooth as the patch, not as coarse as the meso-mesh.
-Result<IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
-                       std::span<const Vec2> coordinates, const IdMapOptions& options,
-                       const Progress& progress);
+Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
+                                 std::span<const Vec2> coordinates, const IdMapOptions& options,
+                                 const Progress& progress);
 
 }  // namespace lambent::synthesis

@@ -58,7 +58,8 @@ TEST(PlaceIds, APlanesOwnCoordinatesComeBackToTheLastBit) {
     const Vec2 at = place(p.x(), p.z());
     q.emplace_back(at.x() - std::floor(at.x()), at.y() - std::floor(at.y()));
   }
-  const Result<IdMap> ids = placeIds(plane, mesh, q, {.size = 96, .patchSize = patch}, {});
+  const Result<transfer::IdMap> ids =
+      placeIds(plane, mesh, q, {.size = 96, .patchSize = patch}, {});
   ASSERT_TRUE(ids);
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 96; ++x) {
@@ -89,7 +90,7 @@ TEST(PlaceIds, ShootsAtTheSheetThatFacesTheSameWay) {
     add(mesh, below.positions[i], below.normals[i], below.tangents[i]);
   q.resize(mesh.positions.size(), Vec2(0.7f, 0.7f));
   for (const int neighbours : {1, 20}) {
-    const Result<IdMap> ids = placeIds(
+    const Result<transfer::IdMap> ids = placeIds(
         atlas, mesh, q, {.size = 64, .neighbours = neighbours, .patchSize = Vec2(1e4f, 1e4f)}, {});
     ASSERT_TRUE(ids);
     const scene::TexelMap map = scene::texelMap(atlas.mesh, 64, 64);
@@ -108,7 +109,7 @@ TEST(PlaceIds, OfTheNearestTakesTheOneNearestToTheNormalsLine) {
   add(mesh, Vec3(0.01f, 0.2f, 0), Vec3(0, 1, 0), Vec3(1, 0, 0));  // nearest to the line
   add(mesh, Vec3(0, 0.1f, 0), Vec3(0, -1, 0), Vec3(1, 0, 0));     // on the line, facing away
   const std::vector<Vec2> q = {Vec2(0.1f, 0), Vec2(0.5f, 0), Vec2(0.9f, 0)};
-  const Result<IdMap> ids =
+  const Result<transfer::IdMap> ids =
       placeIds(plane, mesh, q, {.size = 1, .patchSize = Vec2(1e4f, 1e4f)}, {});
   ASSERT_TRUE(ids);
   EXPECT_LE(apart(ids->ids[0], 32768), 2);
@@ -125,7 +126,7 @@ TEST(PlaceIds, EveryOtherTexelHasTheNearestChartTexelsId) {
     add(mesh, n, n, n.unitOrthogonal());
     q.push_back(random.uniform2());
   }
-  const Result<IdMap> ids = placeIds(atlas, mesh, q, {.size = size}, {});
+  const Result<transfer::IdMap> ids = placeIds(atlas, mesh, q, {.size = size}, {});
   ASSERT_TRUE(ids);
   const scene::TexelMap map = scene::texelMap(atlas.mesh, size, size);
   std::size_t outside = 0;
@@ -148,7 +149,7 @@ TEST(PlaceIds, EveryOtherTexelHasTheNearestChartTexelsId) {
   EXPECT_GT(outside, 100u);
 
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const Result<IdMap> alone = placeIds(atlas, mesh, q, {.size = size}, {});
+  const Result<transfer::IdMap> alone = placeIds(atlas, mesh, q, {.size = size}, {});
   ASSERT_TRUE(alone);
   EXPECT_EQ(alone->ids, ids->ids);
 }
@@ -167,7 +168,7 @@ TEST(PlaceIds, AChartWithoutATexelsCentreStillHasATexel) {
   std::vector<Vec2> q(500, Vec2(0.2f, 0.2f));
   add(mesh, Vec3(5, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0));
   q.emplace_back(0.6f, 0.6f);
-  const Result<IdMap> ids =
+  const Result<transfer::IdMap> ids =
       placeIds(atlas, mesh, q, {.size = 16, .patchSize = Vec2(1e4f, 1e4f)}, {});
   ASSERT_TRUE(ids);
   EXPECT_LE(apart(ids->ids[2 * (12 * 16 + 12)], 39322), 2);
@@ -178,7 +179,7 @@ TEST(PlaceIds, RefusesWhatDoesNotFitTogether) {
   const atlas::Atlas plane = atlasOf(scene::gridPlane(1, 1, 1, 1), 8, true);
   const MesoMesh mesh = scattered(10, 0.0f, 1.0f, 5);
   const std::vector<Vec2> q(10, Vec2::Zero());
-  const auto kindOf = [&](const Result<IdMap>& result) {
+  const auto kindOf = [&](const Result<transfer::IdMap>& result) {
     EXPECT_FALSE(result);
     return result ? ErrorKind::Failed : result.error().kind;
   };

@@ -1,4 +1,5 @@
-// A patch's texture spread over a surface (Turk 2001, Tong 2002, as Sloan 2003 §4.3 uses them).
+// A patch's texture spread over a surface (turk2001texture, tong2002synthesis, as sloan2003biscale
+// §4.3 uses them).
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lambent/math/random.h"
-#include "lambent/meso/radiance_transfer_texture.h"
+#include "lambent/transfer/field.h"
 
 namespace lambent::synthesis {
 
@@ -41,8 +41,8 @@ inline Rgb stuccoAlbedo(float u, float v) {
 /// A patch that responds to the mean light by its albedo and to band 1 by a fraction of it, more so
 /// seen from above.
 template <class Albedo>
-meso::RadianceTransferTexture patchOf(const Albedo& albedo, int side, int views = 1) {
-  meso::RadianceTransferTexture rtt;
+transfer::SimulatedRtt patchOf(const Albedo& albedo, int side, int views = 1) {
+  transfer::SimulatedRtt rtt;
   rtt.width = rtt.height = side;
   rtt.views = views;
   rtt.bands = 2;

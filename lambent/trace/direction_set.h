@@ -12,8 +12,8 @@ namespace lambent::trace {
 /// Equally weighted unit directions (4π/size() sr each), a spherical Fibonacci lattice turned by a
 /// rotation and sorted along a Morton curve on the octahedron. Sixteen neighbours form a bundle
 /// that points nearly one way: the packets of the casts, and the unit of culling by the hemisphere
-/// (the bins of Sloan 2002 §5, flat instead of a hierarchy: 512 cone tests a receiver cost less
-/// than one ray in a thousand).
+/// (the bins of sloan2002precomputed §5, flat instead of a hierarchy: 512 cone tests a receiver
+/// cost less than one ray in a thousand).
 class DirectionSet {
  public:
   static constexpr int kBundle = 16;

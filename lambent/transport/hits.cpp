@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kMostMirrors = 64;  ///< in one path; the path tracer stops there as well
 
-/// Where a ray that struck a mirror ends (Sloan 2002 §5: it is always reflected, until a surface
-/// that is no mirror is reached).
+/// Where a ray that struck a mirror ends (sloan2002precomputed §5: it is always reflected, until a
+/// surface that is no mirror is reached).
 struct ChainEnd {
   std::optional<trace::Hit> hit;  ///< none: it left the scene
   Vec3 direction;                 ///< unit, of the last segment
@@ -43,10 +43,10 @@ std::optional<ChainEnd> followMirrors(const scene::Scene& scene, const trace::Ra
 
 }  // namespace
 
-void sortHits(const scene::Scene& scene, const trace::RayScene& rays, const Receivers& receivers,
-              const trace::DirectionSet& directions, std::uint32_t self,
-              const trace::CastResult& cast, ReceiverHits& hits, std::vector<MirrorEscape>& escapes,
-              HitCounts& counts) {
+void sortHits(const scene::Scene& scene, const trace::RayScene& rays,
+              const PlacedReceivers& receivers, const trace::DirectionSet& directions,
+              std::uint32_t self, const trace::CastResult& cast, ReceiverHits& hits,
+              std::vector<MirrorEscape>& escapes, HitCounts& counts) {
   hits.clear();
   escapes.clear();
   counts.rays += cast.raysCast;

@@ -49,9 +49,9 @@ struct HitCounts {
 
 /// Sorts what a cast met from receiver `self` into hits and escapes. Reproducible: cast again, the
 /// same records come out.
-void sortHits(const scene::Scene& scene, const trace::RayScene& rays, const Receivers& receivers,
-              const trace::DirectionSet& directions, std::uint32_t self,
-              const trace::CastResult& cast, ReceiverHits& hits, std::vector<MirrorEscape>& escapes,
-              HitCounts& counts);
+void sortHits(const scene::Scene& scene, const trace::RayScene& rays,
+              const PlacedReceivers& receivers, const trace::DirectionSet& directions,
+              std::uint32_t self, const trace::CastResult& cast, ReceiverHits& hits,
+              std::vector<MirrorEscape>& escapes, HitCounts& counts);
 
 }  // namespace lambent::transport

@@ -11,7 +11,7 @@ namespace lambent::transport {
 
 namespace {
 
-void add(Receivers& receivers, const scene::SurfacePoint& point, const Vec3& origin) {
+void add(PlacedReceivers& receivers, const scene::SurfacePoint& point, const Vec3& origin) {
   receivers.positions.push_back(point.position);
   receivers.origins.push_back(origin);
   receivers.normals.push_back(point.normal);
@@ -24,7 +24,7 @@ constexpr std::uint32_t kNobody = 0xffffffffu;
 
 /// Every empty texel takes the receiver of a nearest full one: rings of breadth-first search over
 /// the eight neighbours, each texel choosing among its neighbours' full texels by distance.
-void dilate(Receivers::PerMesh& grid) {
+void dilate(PlacedReceivers::PerMesh& grid) {
   const int width = grid.width, height = grid.height;
   std::vector<std::int32_t> source(grid.receiverOfTexel.size(), -1);  // the full texel it copies
   std::vector<std::int32_t> front, next;
@@ -58,9 +58,9 @@ void dilate(Receivers::PerMesh& grid) {
 }
 
 Status placeTexels(const scene::Scene& scene, const TexelGrid& asked, float offset,
-                   Receivers& receivers) {
+                   PlacedReceivers& receivers) {
   const scene::Mesh& mesh = scene.meshes[asked.mesh];
-  Receivers::PerMesh& grid = receivers.meshes[asked.mesh];
+  PlacedReceivers::PerMesh& grid = receivers.meshes[asked.mesh];
   if (Status sound = scene::checkUvs(mesh, asked.width, asked.height); !sound) return sound.error();
   grid.layout = Layout::Texels;
   grid.width = asked.width, grid.height = asked.height;
@@ -150,10 +150,10 @@ Status checkFrames(const scene::Scene& scene, const Placement& placement) {
 
 }  // namespace
 
-Result<Receivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
-                                 float offset) {
+Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
+                                       float offset) {
   const std::span<const TexelGrid> texels = placement.texels;
-  Receivers receivers;
+  PlacedReceivers receivers;
   receivers.meshes.resize(scene.meshes.size());
   if (Status sound = checkFrames(scene, placement); !sound) return sound.error();
   for (const TexelGrid& asked : texels) {
@@ -166,7 +166,7 @@ Result<Receivers> placeReceivers(const scene::Scene& scene, const Placement& pla
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const scene::Mesh& mesh = scene.meshes[m];
     const scene::Material& material = scene.materials[mesh.material];
-    Receivers::PerMesh& place = receivers.meshes[m];
+    PlacedReceivers::PerMesh& place = receivers.meshes[m];
     place.first = static_cast<std::uint32_t>(receivers.size());
     if (material.isMirror()) continue;
     place.isGlossy = material.isGlossy();
@@ -191,7 +191,7 @@ Result<Receivers> placeReceivers(const scene::Scene& scene, const Placement& pla
   return receivers;
 }
 
-std::vector<std::uint32_t> spatialOrder(const Receivers& receivers) {
+std::vector<std::uint32_t> spatialOrder(const PlacedReceivers& receivers) {
   scene::Box box;
   for (const Vec3& p : receivers.positions) box.extend(p);
   const Vec3 scale = (box.upper - box.lower).cwiseMax(1e-30f).cwiseInverse() * 1023.0f;
@@ -211,10 +211,10 @@ std::vector<std::uint32_t> spatialOrder(const Receivers& receivers) {
   return order;
 }
 
-std::uint32_t drawReceiver(const scene::Scene& scene, const Receivers& receivers,
+std::uint32_t drawReceiver(const scene::Scene& scene, const PlacedReceivers& receivers,
                            std::uint32_t mesh, std::uint32_t triangle, float u, float v, float u1,
                            float u2) {
-  const Receivers::PerMesh& place = receivers.meshes[mesh];
+  const PlacedReceivers::PerMesh& place = receivers.meshes[mesh];
   const scene::Triangle& corners = scene.meshes[mesh].triangles[triangle];
   if (place.layout == Layout::Vertices) {
     const float w = 1.0f - u - v;

@@ -7,7 +7,6 @@
 
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
-#include "lambent/transport/transfer_field.h"
 
 namespace lambent::transport {
 
@@ -18,7 +17,7 @@ struct TexelGrid {
 };
 
 /// A mesh that carries meso-structure: its receivers are its vertices, and what they record is the
-/// light that arrives there, as matrices in their tangent frames (MeshTransfer::local).
+/// light that arrives there, as matrices in their tangent frames (transfer::BiScale).
 struct LocalFrames {
   std::uint32_t mesh = 0;
   std::vector<Vec3> tangents;  ///< one per vertex: world space, unit, at right angles to the normal
@@ -30,8 +29,11 @@ struct Placement {
   std::vector<LocalFrames> local;  ///< meshes whose transfer is local
 };
 
+/// What a mesh's receivers stand on. Mirrors have none.
+enum class Layout { None, Vertices, Texels };
+
 /// All receivers of a scene, numbered through; mirrors have none.
-struct Receivers {
+struct PlacedReceivers {
   std::vector<Vec3> positions, normals;  ///< world space, unit normals
   std::vector<Vec3> origins;             ///< where rays start: off the surface, away from its edges
   std::vector<Rgb> diffuse, glossy;      ///< reflectances with the base colour applied
@@ -57,19 +59,19 @@ struct Receivers {
 /// BadInput where texels are asked for and the UVs are missing, outside the unit square, or
 /// overlap; BadUsage where the placement does not fit the scene.
 /// `offset`: how far origins are lifted off, trace::RayScene::offset().
-Result<Receivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
-                                 float offset);
+Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
+                                       float offset);
 
 /// All receivers along a Morton curve through their bounding box. Rays from neighbours walk the
 /// same part of the acceleration structure: a scan with its vertices in any sequence is baked as
 /// fast as a well-ordered one.
-std::vector<std::uint32_t> spatialOrder(const Receivers& receivers);
+std::vector<std::uint32_t> spatialOrder(const PlacedReceivers& receivers);
 
 /// The receiver that stands for a point of a surface: one of the corners of its triangle (or of
 /// the four texels around it), drawn in proportion to the weights of linear interpolation. An
 /// average over many points converges to the interpolated value, with one look-up a point.
 /// u1 and u2 in [0, 1). Its mesh must have receivers.
-std::uint32_t drawReceiver(const scene::Scene& scene, const Receivers& receivers,
+std::uint32_t drawReceiver(const scene::Scene& scene, const PlacedReceivers& receivers,
                            std::uint32_t mesh, std::uint32_t triangle, float u, float v, float u1,
                            float u2);
 

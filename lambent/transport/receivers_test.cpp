@@ -113,7 +113,7 @@ TEST(Receivers, DrawingCornersInterpolates) {
   ASSERT_TRUE(vertices && texels);
   // Positions are linear over the triangle: the mean of the drawn receivers' positions must be the
   // point itself (for texels: anywhere between the outer texel centres).
-  for (const Receivers* receivers : {&*vertices, &*texels}) {
+  for (const PlacedReceivers* receivers : {&*vertices, &*texels}) {
     const float u = 0.3f, v = 0.35f;
     Vec3 mean = Vec3::Zero();
     constexpr int kSteps = 64;

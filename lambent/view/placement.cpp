@@ -107,15 +107,20 @@ light::Environment assetEnvironment(const ViewState& state, const light::Environ
   return sum;
 }
 
+shade::Showing showingOf(const ViewState& state) {
+  shade::Showing showing = shade::Showing::of(state.transfer);
+  if (!state.macro) showing.mesoStructure = transfer::Kind::Unshadowed;
+  if (state.lobe) showing.lobeExponent = float(*state.lobe);
+  showing.viewDependent = state.viewDependent;
+  return showing;
+}
+
 shade::PictureOptions pictureOptions(const ViewState& state, int width, int height) {
   shade::PictureOptions options;
   options.width = width, options.height = height;
   options.samples = state.samples;
   options.background = state.background;
-  options.transfer = state.transfer;
-  if (state.lobe) options.lobeExponent = float(*state.lobe);
-  if (!state.macro) options.biScale.macro = shade::MacroTransport::Off;
-  options.biScale.viewDependent = state.viewDependent;
+  options.showing = showingOf(state);
   return options;
 }
 

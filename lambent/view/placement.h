@@ -7,7 +7,7 @@
 #pragma once
 
 #include "lambent/light/environment.h"
-#include "lambent/shade/picture.h"
+#include "lambent/shade/picture_options.h"
 #include "lambent/view/view_state.h"
 
 namespace lambent::view {
@@ -39,7 +39,9 @@ scene::Camera assetCamera(const ViewState& state, const scene::Camera& worldCame
 /// what a path tracer takes as its light.
 light::Environment assetEnvironment(const ViewState& state, const light::Environment& environment);
 
-/// What else a state says about a picture.
+/// What a state says about how the asset is shown.
+shade::Showing showingOf(const ViewState& state);
+/// What else it says about a picture.
 shade::PictureOptions pictureOptions(const ViewState& state, int width, int height);
 
 /// The box around a box that is moved.

@@ -94,7 +94,7 @@ TEST(Placement, EnvironmentAndDiscsTurnIntoTheAssetsFrame) {
 
 TEST(Placement, AStateSaysWhatAPictureIs) {
   ViewState state;
-  state.transfer = shade::TransferChoice::Shadowed;
+  state.transfer = transfer::Kind::Shadowed;
   state.macro = state.background = state.viewDependent = false;
   state.lobe = 30;
   state.samples = 9;
@@ -102,12 +102,12 @@ TEST(Placement, AStateSaysWhatAPictureIs) {
   EXPECT_EQ(options.width, 30);
   EXPECT_EQ(options.height, 20);
   EXPECT_EQ(options.samples, 9);
-  EXPECT_EQ(options.transfer, shade::TransferChoice::Shadowed);
-  EXPECT_EQ(options.biScale.macro, shade::MacroTransport::Off);
-  EXPECT_FALSE(options.biScale.viewDependent);
+  EXPECT_EQ(options.showing.surfaces, transfer::Kind::Shadowed);
+  EXPECT_EQ(options.showing.mesoStructure, transfer::Kind::Unshadowed);
+  EXPECT_FALSE(options.showing.viewDependent);
   EXPECT_FALSE(options.background);
-  EXPECT_EQ(options.lobeExponent, 30.0f);
-  EXPECT_FALSE(pictureOptions({}, 1, 1).biScale.macro);
+  EXPECT_EQ(options.showing.lobeExponent, 30.0f);
+  EXPECT_FALSE(pictureOptions({}, 1, 1).showing.mesoStructure);
 }
 
 TEST(Placement, ABoxMovesWithItsCorners) {

@@ -78,7 +78,7 @@ std::string toJson(const ViewState& state) {
                                  list(state.environmentRotation)));
   add("discs", "[" + discs + (discs.empty() ? "]" : "\n  ]"));
   add("window", quoted(state.window));
-  add("transfer", quoted(std::string(shade::nameOf(state.transfer))));
+  add("transfer", quoted(std::string(shade::choiceName(state.transfer))));
   add("macro", flag(state.macro));
   add("viewDependent", flag(state.viewDependent));
   add("lobe", numberOrNull(state.lobe));

@@ -12,7 +12,7 @@
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
-#include "lambent/shade/transfer_choice.h"
+#include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
 
 namespace lambent::view {
@@ -40,8 +40,8 @@ struct ViewState {
   std::string environment = "uniform:1";
   std::array<double, 4> environmentRotation{0, 0, 0, 1};
   std::vector<Disc> discs;
-  std::string window = "none";  ///< as light::parseWindowing takes it
-  shade::TransferChoice transfer = shade::TransferChoice::Best;
+  std::string window = "none";             ///< as light::parseWindowing takes it
+  std::optional<transfer::Kind> transfer;  ///< none: the most that is held
   bool macro = true;           ///< off: meso-structure takes the light as nothing hid it
   bool viewDependent = true;   ///< of meso-structure
   std::optional<double> lobe;  ///< exponent of glossy lobes instead of the materials'

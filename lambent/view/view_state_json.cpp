@@ -202,9 +202,9 @@ Result<ViewState> parseViewState(std::string_view text, const std::string& name)
   reader.text(json, "window", "window", state.window);
   if (const auto windowing = light::parseWindowing(state.window); !windowing)
     reader.complain("window", "is " + windowing.error().message);
-  std::string transfer(shade::nameOf(state.transfer));
+  std::string transfer(shade::choiceName(state.transfer));
   reader.text(json, "transfer", "transfer", transfer);
-  if (const auto choice = shade::transferChoiceNamed(transfer))
+  if (const auto choice = shade::choiceNamed(transfer))
     state.transfer = *choice;
   else
     reader.complain("transfer",

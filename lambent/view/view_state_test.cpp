@@ -18,7 +18,7 @@ ViewState everything() {
   state.environmentRotation = {0, 0.6, 0, 0.8};
   state.discs = {{30, 45, 0.53, Rgb(2e4f, 1.9e4f, 0.1f)}, {-170, -90, 360, Rgb::Zero()}};
   state.window = "lanczos:6.5";
-  state.transfer = shade::TransferChoice::Shadowed;
+  state.transfer = transfer::Kind::Shadowed;
   state.macro = state.viewDependent = state.background = false;
   state.lobe = 12.5;
   state.exposure = -1.75;
@@ -51,7 +51,7 @@ TEST(ViewState, IsComparedMemberByMember) {
   EXPECT_TRUE(differs([](ViewState& s) { s.environmentRotation = {1, 0, 0, 0}; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.discs[1].radiance[2] = 1; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.window = "minimal"; }));
-  EXPECT_TRUE(differs([](ViewState& s) { s.transfer = shade::TransferChoice::Best; }));
+  EXPECT_TRUE(differs([](ViewState& s) { s.transfer.reset(); }));
   EXPECT_TRUE(differs([](ViewState& s) { s.macro = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.viewDependent = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.lobe.reset(); }));

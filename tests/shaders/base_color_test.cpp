@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/shade/lit_mesh.h"
 #include "tests/shaders/test_glsl.h"
 

@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/scene/scene.h"
 #include "lambent/sh/basis.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/macro_transport.h"
 #include "lambent/shade/rtt_footprint.h"
+#include "lambent/tone/tone_curve.h"
 #include "tests/shaders/test_glsl.h"
 
 #include "tests/shaders/glsl_begin.h"
@@ -138,8 +139,8 @@ TEST(Tone, IsTheLibrarys) {
     const vec3 c(x, 0.5f, -x);
     const Rgb pixel(x, 0.5f, -x);
     std::vector<Rgb> cut = {pixel}, curved = {pixel};
-    radiometry::toneMap(cut, 0.0f, radiometry::ToneCurve::Linear);
-    radiometry::toneMap(curved, 0.0f, radiometry::ToneCurve::Filmic);
+    tone::toneMap(cut, 0.0f, tone::Curve::Linear);
+    tone::toneMap(curved, 0.0f, tone::Curve::Filmic);
     ASSERT_LT(apart(formulas::cutToOne(c), cut[0]), 1e-9f) << x;
     ASSERT_LT(apart(formulas::filmic(c), curved[0]), 2e-7f) << x;
     const vec3 coded = formulas::srgbEncode(formulas::filmic(c));

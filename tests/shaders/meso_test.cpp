@@ -194,17 +194,18 @@ TEST(RttLookUp, IsTheLibrarysForBytes) {
 
 TEST(PatchPlace, IsTheLibrarys) {
   math::Random random(3, 0);
-  encode::EncodedBiScale tiled, mapped;
-  tiled.tiles = Vec2(7.5f, 3.25f);
-  synthesis::IdMap map{17, 5, {}};
+  const transfer::Tiles tiles{Vec2(7.5f, 3.25f)};
+  transfer::IdMap map{17, 5, {}};
   for (std::size_t i = 0; i < 2 * map.texelCount(); ++i)
     map.ids.push_back(std::uint16_t(random.below(65536)));
-  mapped.idMap = map;
+  transfer::Patch tiled, mapped;
+  tiled.place = tiles;
+  mapped.place = map;
   floats::idMap = &map;
   for (int i = 0; i < kMany; ++i) {
     const Vec2 uv(between(random, -0.5f, 1.5f), between(random, -0.5f, 1.5f));
     ASSERT_EQ(apart(floats::mappedPlace(from(uv)), shade::patchPlace(mapped, uv)), 0.0f);
-    ASSERT_EQ(apart(floats::tiledPlace(from(tiled.tiles), from(uv)), shade::patchPlace(tiled, uv)),
+    ASSERT_EQ(apart(floats::tiledPlace(from(tiles.tiles), from(uv)), shade::patchPlace(tiled, uv)),
               0.0f);
   }
 }

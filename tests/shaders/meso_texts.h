@@ -10,7 +10,7 @@
 #include "shaders/rtt_look_up.glsl"
 
 const uvec4* numbers = nullptr;  // [level][y][x][view y][view x][texel]
-const synthesis::IdMap* idMap = nullptr;
+const transfer::IdMap* idMap = nullptr;
 
 int lightPlace(int) {
   return 0;

@@ -1,5 +1,5 @@
 // What receivers hold, at places between them: shaders/texel_receivers.glsl, corner_weights.glsl,
-// incident.glsl and lobe.glsl against shade::Receivers and shade::LitMesh.
+// incident.glsl and lobe.glsl against shade::ReceiverWeights and shade::LitMesh.
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -69,7 +69,7 @@ TEST(TexelReceivers, AreTheLibrarys) {
     for (int i = 0; i < kMany; ++i) {
       const Vec2 uv(between(random, -0.2f, 1.2f), between(random, -0.2f, 1.2f));
       const three::Texels found = three::texelsAround(from(uv), ivec2(width, height));
-      const shade::Receivers expected = shade::Receivers::ofTexels(width, height, uv);
+      const shade::ReceiverWeights expected = shade::ReceiverWeights::ofTexels(width, height, uv);
       for (int k = 0; k < 4; ++k) {
         ASSERT_EQ(found.receiver[k], int(expected.index[std::size_t(k)])) << uv.transpose();
         ASSERT_NEAR(found.weight[k], expected.weight[std::size_t(k)], 1e-6f) << uv.transpose();
@@ -85,7 +85,7 @@ TEST(CornerWeights, AreThoseOfThePlace) {
     if (n.norm() < 0.1f) continue;  // of slivers a place tells little
     const float u = 0.5f * random.uniform(), v = 0.5f * random.uniform();
     const Vec3 place = (1 - u - v) * a + u * b + v * c;
-    const shade::Receivers expected = shade::Receivers::ofTriangle({0, 1, 2}, u, v);
+    const shade::ReceiverWeights expected = shade::ReceiverWeights::ofTriangle({0, 1, 2}, u, v);
     const vec3 found = three::cornerWeights(from(place), from(a), from(b), from(c));
     for (int k = 0; k < 3; ++k) ASSERT_NEAR(found[k], expected.weight[std::size_t(k)], 2e-6f);
   }
@@ -123,14 +123,14 @@ TEST(Lobe, IsTheLibrarysBetweenCornersAndTexels) {
     const Vec3 reflected = anyDirection(random);
     const Vec2 uv = random.uniform2();
     const three::Texels texels = three::texelsAround(from(uv), ivec2(width, height));
-    const shade::Receivers around = shade::Receivers::ofTexels(width, height, uv);
+    const shade::ReceiverWeights around = shade::ReceiverWeights::ofTexels(width, height, uv);
     three::interpolateIncident(texels.receiver, texels.weight);
     ASSERT_LT(apart(three::lobeRadiance(from(reflected)), lit3.glossyAt(around, reflected)), 2e-6f);
     four::interpolateIncident(texels.receiver, texels.weight);
     ASSERT_LT(apart(four::lobeRadiance(from(reflected)), lit4.glossyAt(around, reflected)), 2e-6f);
 
     const float u = 0.5f * random.uniform(), v = 0.5f * random.uniform();
-    const shade::Receivers corners = shade::Receivers::ofTriangle({5, 30, 11}, u, v);
+    const shade::ReceiverWeights corners = shade::ReceiverWeights::ofTriangle({5, 30, 11}, u, v);
     four::interpolateIncident(ivec3(5, 30, 11), vec3(1 - u - v, u, v));
     ASSERT_LT(apart(four::lobeRadiance(from(reflected)), lit4.glossyAt(corners, reflected)), 2e-6f);
   }

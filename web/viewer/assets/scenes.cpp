@@ -9,6 +9,7 @@
 #include "lambent/meso/generators.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/transfer/encode.h"
 #include "web/viewer/assets/turned.h"
 
 namespace lambent::page {
@@ -96,7 +97,7 @@ Result<asset::Asset> stillLife() {
   if (!receivers) return receivers.error();
   const auto field = macro::bake(scene, *rays, *receivers, options, {});
   if (!field) return field.error();
-  return asset::Asset{scene, encode::encode(field->value, encode::Encoding::Float16)};
+  return asset::Asset{scene, transfer::encode(field->value, transfer::Encoding::Float16)};
 }
 
 Result<asset::Asset> wovenKnot() {
@@ -121,7 +122,6 @@ Result<asset::Asset> wovenKnot() {
   structure.views = 5;
   structure.bands = 4;
   structure.directions = 384;
-  Findings findings;
   const auto built = meso::buildRtt(meso::weave(cloth), structure, {});
   if (!built) return built.error();
 
@@ -136,11 +136,10 @@ Result<asset::Asset> wovenKnot() {
   options.transfer.bands = structure.bands;
   options.transfer.directions = 4096;
   options.transfer.keepShadowed = true;
-  auto spread = bi_scale::spreadPatch(std::move(scene),
-                                      encode::encode(built->value, encode::Encoding::Snorm8),
-                                      options, {}, findings);
+  auto spread = bi_scale::spreadPatch(
+      std::move(scene), transfer::encode(built->value, transfer::Encoding::Snorm8), options);
   if (!spread) return spread.error();
-  return std::move(spread->asset);
+  return std::move(spread->value.asset);
 }
 
 }  // namespace lambent::page

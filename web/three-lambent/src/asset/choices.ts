@@ -1,4 +1,4 @@
-// Which part of the simulated transport relights: shade::chosenTransfer.
+// Which part of the simulated transport relights, as shade::Showing has it.
 
 import type {
   AssetDescription,

@@ -1,0 +1,114 @@
+// A picture by one ray for each sub-sample. What is interpolated is what sloan2002precomputed §6
+// interpolates on the GPU: over a triangle (or between texels) the exit radiance of a diffuse
+// surface, and the lobe-convolved coefficients of transferred radiance of a glossy one, which are
+// evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows the
+// environment, unblocked: "a traditional environment map". With meso-structure it is the light that
+// arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003biscale §5).
+
+#include "lambent/reference/relit_picture.h"
+
+#include <map>
+
+#include "lambent/shade/lit_mesh.h"
+#include "lambent/shade/lit_patch.h"
+#include "lambent/shade/picture_frame.h"
+#include "lambent/shade/rtt_footprint.h"
+#include "lambent/shade/unshadowed.h"
+#include "lambent/trace/ray_scene.h"
+#include "lambent/work/runner.h"
+
+namespace lambent::reference {
+namespace {
+
+using transfer::Numbers;
+using Surface = transfer::Surface<Numbers>;
+using BiScale = transfer::BiScale<Numbers>;
+
+struct LitScene {
+  const asset::Asset& asset;
+  const light::Environment& environment;
+  shade::SampleWidth width;
+  std::vector<shade::LitMesh> meshes;                ///< of bare surfaces
+  std::map<std::uint32_t, shade::LitPatch> patches;  ///< of meshes with meso-structure
+
+  Rgb exitRadiance(const trace::Hit& hit, const Vec3& toViewer) const {
+    if (hit.backFace) return Rgb::Zero();
+    const scene::Scene& scene = asset.scene;
+    const scene::Mesh& mesh = scene.meshes[hit.mesh];
+    const scene::Material& material = scene.materials[mesh.material];
+
+    const scene::SurfacePoint point = scene::surfaceAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
+    const auto patch = patches.find(hit.mesh);
+    if (patch != patches.end() && !material.isMirror())
+      return patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(hit.distance));
+    const Rgb base = shade::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
+    const Vec3 reflected = shade::mirrored(toViewer, point.normal);
+    if (material.isMirror()) return material.mirror * base * environment.radiance(reflected);
+    const auto* surface = std::get_if<Surface>(&asset.transfer.meshes[hit.mesh]);
+    if (!surface) return Rgb::Zero();
+
+    const transfer::AtTexels* grid = surface->receivers->texels();
+    const shade::ReceiverWeights at =
+        grid ? shade::ReceiverWeights::ofTexels(grid->width, grid->height, point.uv)
+             : shade::ReceiverWeights::ofTriangle(mesh.triangles[hit.triangle], hit.u, hit.v);
+    const shade::LitMesh& lit = meshes[hit.mesh];
+    const Rgb diffuse = lit.diffuseAt(at);
+    return (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) + lit.glossyAt(at, reflected) * base;
+  }
+};
+
+}  // namespace
+
+Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                                  const light::Environment& environment,
+                                  const scene::Camera& camera, const shade::PictureOptions& options,
+                                  const Progress& progress) {
+  if (Status s = shade::checkPicture(asset, light, camera, options); !s) return s.error();
+  Result<trace::RayScene> rays = trace::RayScene::build(asset.scene);
+  if (!rays) return rays.error();
+
+  LitScene lit{
+      asset, environment, shade::sampleWidth(camera, options.height, options.samples), {}, {}};
+  shade::RttPyramids pyramids(asset.transfer, options.showing.filter);
+  for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m) {
+    const transfer::EncodedMesh& mesh = asset.transfer.meshes[m];
+    shade::LitMesh& surface = lit.meshes.emplace_back();
+    if (const auto* biScale = std::get_if<BiScale>(&mesh))
+      lit.patches.emplace(
+          m, shade::LitPatch(asset, m, pyramids.of(biScale->patch.rtt), light, options.showing));
+    else if (std::holds_alternative<Surface>(mesh))
+      surface =
+          shade::lightMesh(*shade::responseUnder(asset, m, shade::kindShown(mesh, options.showing)),
+                           light, options.showing.lobeExponent);
+  }
+
+  const int width = options.width, height = options.height;
+  const std::vector<Vec2> positions = scene::subpixelPositions(options.samples);
+  const float share = 1.0f / float(positions.size());
+  image::Image image(width, height);
+  image.alpha.resize(image.pixels.size());
+
+  const work::Runner runner(progress);
+  const work::Chunks rows(image.pixels.size(), std::size_t(width));
+  const Status whole = runner.run({"picture", "pixels"}, rows, [&](const work::Chunk& row) {
+    const int y = int(row.index);
+    for (int x = 0; x < width; ++x) {
+      Rgb sum = Rgb::Zero();
+      int covered = 0;
+      for (const Vec2& p : positions) {
+        const scene::Ray ray = scene::cameraRay(camera, width, height, x + p.x(), y + p.y());
+        const std::optional<trace::Hit> hit = rays->closest(ray.origin, ray.direction);
+        if (!hit) continue;
+        ++covered;
+        sum += lit.exitRadiance(*hit, -ray.direction);
+      }
+      image.at(x, y) = share * sum;
+      image.alpha[std::size_t(y) * width + x] = float(covered) / float(positions.size());
+    }
+  });
+  if (!whole) return whole.error();
+  shade::finishPicture(image, environment, camera, options);
+  return image;
+}
+
+}  // namespace lambent::reference

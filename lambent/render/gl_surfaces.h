@@ -1,0 +1,104 @@
+// Bare surfaces and mirrors on the GPU: geometry, exit radiance and lobes at the receivers, and the
+// programs that draw them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lambent/asset/asset.h"
+#include "lambent/render/batches.h"
+#include "lambent/render/gl_base_colors.h"
+#include "lambent/render/gl_environment.h"
+#include "lambent/render/gl_objects.h"
+#include "lambent/render/gl_view.h"
+#include "lambent/render/transfer_on_gpu.h"
+#include "lambent/shade/showing.h"
+
+namespace lambent::render {
+
+class GlSurfaces {
+ public:
+  /// `asset` must outlive it, and fit together (asset::faultOf).
+  GlSurfaces(const asset::Asset& asset, std::size_t largestBlock)
+      : asset_(&asset), largestBlock_(largestBlock) {}
+
+  /// Uploads a mesh without meso-structure, lit as `showing` says.
+  Status add(std::uint32_t mesh, const shade::Showing& showing, TransferOnGpu& transfer);
+
+  /// What a piece of a mesh sends out.
+  struct Lit {
+    std::uint32_t mesh = 0;
+    Relit diffuse, lobe;
+  };
+  /// The light of all pieces under other transfer, to be given to setLight.
+  Result<std::vector<Lit>> lightUnder(const shade::Showing& showing, TransferOnGpu& transfer) const;
+  void setLight(std::vector<Lit> light);
+  /// Other lobes for what is lit.
+  void setLobe(std::optional<float> exponent);
+  /// Calls each(mesh, relit) for everything that a new light changes.
+  template <class Each>
+  void forEach(Each each) {
+    for (Lit& lit : lit_)
+      for (Relit* relit : {&lit.diffuse, &lit.lobe})
+        if (relit->product.name()) each(lit.mesh, *relit);
+  }
+
+  bool hasMirrors() const { return hasMirrors_; }
+  /// Draws them into the bound framebuffer: radiance, and 1 in alpha. A vertex array must be bound;
+  /// its element buffer is changed. Mirrors show `environment`.
+  void draw(const GlView& view, const GlEnvironment& environment, const GlBaseColors& colors,
+            GLuint vertexArray) const;
+  /// Calls drawPiece(mesh, vertices, corners, count) for every piece, as GlPatches::drawUnlit.
+  template <class DrawUnlit>
+  void drawUnlit(DrawUnlit drawPiece) const {
+    for (const Draw& draw : draws_) {
+      if (draw.rows.begin > 0) continue;  // the first band of texels draws the whole of the piece
+      const Geometry& geometry = geometries_[draw.geometry];
+      drawPiece(draw.mesh, geometry.vertices.name(), geometry.corners.name(), geometry.cornerCount);
+    }
+  }
+
+ private:
+  /// As in surface.frag.glsl.
+  enum class SurfaceKind { Vertices = 0, Texels = 1, Mirror = 2, Black = 3 };
+  struct Geometry {
+    Buffer vertices, corners, normals;
+    int cornerCount = 0;
+  };
+  struct Draw {
+    std::uint32_t mesh = 0;
+    SurfaceKind kind = SurfaceKind::Black;
+    std::size_t geometry = 0;
+    std::optional<std::size_t> lit;
+    RowBand rows;
+  };
+  using Response = transfer::SurfaceResponse<transfer::Numbers>;
+
+  Status addProgram(SurfaceKind kind, int lobeBands);
+  Status addTexels(std::uint32_t mesh, const transfer::AtTexels& grid, const Response& response,
+                   std::size_t perReceiver, std::optional<float> lobeExponent,
+                   TransferOnGpu& transfer, std::vector<std::pair<RowBand, std::size_t>>& litRows);
+  const scene::Material& materialOf(std::uint32_t mesh) const {
+    return asset_->scene.materials[asset_->scene.meshes[mesh].material];
+  }
+  /// Null for a mirror.
+  const transfer::Surface<transfer::Numbers>* surfaceOf(std::uint32_t mesh) const {
+    return std::get_if<transfer::Surface<transfer::Numbers>>(&asset_->transfer.meshes[mesh]);
+  }
+  /// The parts that a mesh has, whatever is shown; null for a mirror.
+  const Response* partsOf(std::uint32_t mesh) const;
+  int lobeBandsOf(std::uint32_t mesh) const;
+
+  const asset::Asset* asset_;
+  std::size_t largestBlock_;  ///< bytes of one storage buffer
+  std::vector<Geometry> geometries_;
+  std::vector<Lit> lit_;
+  std::vector<Draw> draws_;
+  std::map<std::pair<SurfaceKind, int>, Program> programs_;  ///< … and bands of the lobe, or 0
+  bool hasMirrors_ = false;
+};
+
+}  // namespace lambent::render

@@ -1,0 +1,19 @@
+// A relit picture of an asset: what all makers of such pictures are told.
+#pragma once
+
+#include "lambent/shade/showing.h"
+
+namespace lambent::shade {
+
+/// Linear radiance, never negative (what a ringing light drives below zero is cut off per pixel,
+/// after averaging), with coverage in alpha: what covers half a pixel has half its radiance there.
+/// With a background there is no alpha. Surfaces seen from behind are black. Only the front of a
+/// material is lit, and a mirror shows the environment alone.
+struct PictureOptions {
+  int width = 1024, height = 1024;
+  int samples = 16;         ///< per pixel, at scene::subpixelPositions
+  bool background = false;  ///< the environment behind the object; otherwise black, alpha 0
+  Showing showing;          ///< what the asset does not hold is BadUsage
+};
+
+}  // namespace lambent::shade
