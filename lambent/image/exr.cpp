@@ -18,6 +18,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfTestFile.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <half.h>
 
 #include <algorithm>
@@ -138,7 +139,25 @@ struct Windows {
   int height() const { return display.max.y - display.min.y + 1; }
 };
 
-Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::string_view name) {
+/// What the library takes for blocks of lines or tiles before it knows whether they are in the
+/// file.
+std::uint64_t bytesForBlocks(const Imf::Header& header) {
+  std::uint64_t pixel = 0;
+  for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
+    pixel += i.channel().type == Imf::HALF ? 2 : 4;
+  }
+  const Box2i& data = header.dataWindow();
+  const auto width =
+      static_cast<std::uint64_t>(static_cast<long long>(data.max.x) - data.min.x + 1);
+  if (!header.hasTileDescription())
+    return 2 * 256 * width * pixel;  // DWAB's blocks are the largest
+  const Imf::TileDescription& tile = header.tileDescription();
+  // Lines are read out of a row of tiles, which is kept.
+  return (width + 2 * std::uint64_t(tile.xSize)) * tile.ySize * pixel;
+}
+
+Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::string_view name,
+                          file::Budget& budget) {
   Windows w{header.dataWindow(), header.displayWindow(), {}};
   for (const Box2i& box : {w.data, w.display}) {
     if (Status sane = checkSize(static_cast<long long>(box.max.x) - box.min.x + 1,
@@ -147,6 +166,13 @@ Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::stri
         !sane) {
       return sane.error();
     }
+  }
+  if (Status fits = budget.hold(bytesForBlocks(header), std::string(name) + ": its blocks");
+      !fits) {
+    return fits.error();
+  }
+  if (Status fits = holdPixels(w.width(), w.height(), sizeof(Rgb) + 4, name, budget); !fits) {
+    return fits.error();
   }
   w.common.min.x = std::max(w.data.min.x, w.display.min.x);
   w.common.min.y = std::max(w.data.min.y, w.display.min.y);
@@ -249,7 +275,9 @@ Image readChroma(MemoryInput& input, const Channels& channels, const Windows& w)
   return image;
 }
 
-Result<Image> readChecked(Bytes bytes, std::string_view name, std::string_view layer) {
+Result<Image> readChecked(Bytes bytes, std::string_view name, file::Budget& budget,
+                          std::string_view layer) {
+  if (Status sound = checkExrHeader(bytes, name); !sound) return sound.error();
   const std::string streamName(name);
   MemoryInput input(bytes, streamName.c_str());
   // No reconstruction of a missing offset table: it would scan the file for what a writer that was
@@ -259,7 +287,7 @@ Result<Image> readChecked(Bytes bytes, std::string_view name, std::string_view l
   if (header.hasType() && Imf::isDeepData(header.type())) {
     return report::badInput(streamName + ": deep pixels cannot be read; flatten the picture");
   }
-  const Result<Windows> windows = windowsOf(header, bytes.size(), name);
+  const Result<Windows> windows = windowsOf(header, bytes.size(), name, budget);
   if (!windows) return windows.error();
   const std::optional<Channels> channels = chooseChannels(header.channels(), layer);
   if (!channels && !layer.empty()) {
@@ -324,9 +352,10 @@ bool isExr(Bytes bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), kMagic.data(), 4) == 0;
 }
 
-Result<Image> readExr(Bytes bytes, std::string_view name, std::string_view layer) {
+Result<Image> readExr(Bytes bytes, std::string_view name, file::Budget& budget,
+                      std::string_view layer) {
   try {
-    return readChecked(bytes, name, layer);
+    return readChecked(bytes, name, budget, layer);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {

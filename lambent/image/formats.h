@@ -1,11 +1,13 @@
-// The readers and writers of single formats, behind io.h. Internal to this room.
+// The readers and writers of single formats, behind io.h and decode.h. Internal to this room.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lambent/file/budget.h"
 #include "lambent/image/image.h"
 #include "lambent/image/io.h"
 #include "lambent/report/result.h"
@@ -15,9 +17,26 @@ namespace lambent::image::formats {
 using Bytes = std::span<const std::byte>;
 
 /// `layer` names the channels before the dot; empty: the picture itself.
-Result<Image> readExr(Bytes bytes, std::string_view name, std::string_view layer = {});
-Result<Image> readHdr(Bytes bytes, std::string_view name);
-Result<Image> readPngOrJpeg(Bytes bytes, std::string_view name);
+Result<Image> readExr(Bytes bytes, std::string_view name, file::Budget& budget,
+                      std::string_view layer = {});
+/// Walks the headers of an EXR file and checks every size in them against the bytes that follow:
+/// OpenEXR takes memory for an attribute before it reads it.
+Status checkExrHeader(Bytes bytes, std::string_view name);
+Result<Image> readHdr(Bytes bytes, std::string_view name, file::Budget& budget);
+
+/// The pixels of PNG, JPEG and WebP as the file has them: four codes a pixel, top row first.
+struct Codes {
+  int width = 0, height = 0;
+  bool hasAlpha = false;
+  std::vector<std::uint8_t> rgba8;
+  std::vector<std::uint16_t> rgba16;  ///< instead of rgba8
+};
+enum class Depth { Eight, AsStored };  ///< whether 16-bit codes stay 16-bit codes
+
+/// What the codes take is held in `budget` when these return.
+Result<Codes> readPng(Bytes bytes, std::string_view name, Depth depth, file::Budget& budget);
+Result<Codes> readJpeg(Bytes bytes, std::string_view name, file::Budget& budget);
+Result<Codes> readWebP(Bytes bytes, std::string_view name, file::Budget& budget);
 
 Result<std::vector<std::byte>> writeExr(const Image& image, std::string_view name,
                                         const WriteOptions& options);
@@ -28,10 +47,17 @@ bool isExr(Bytes bytes);
 bool isHdr(Bytes bytes);
 bool isPng(Bytes bytes);
 bool isJpeg(Bytes bytes);
+bool isWebP(Bytes bytes);
+
+/// "NAME: WHAT at byte AT; the file is damaged or cut off"
+Error damaged(std::string_view name, const std::string& what, size_t at);
 
 /// Refuses sizes that are not positive, beyond kMaxPixels, or more than the file can hold even if
 /// every byte of it stood for `pixelsPerByte` pixels: the check before memory is taken.
 Status checkSize(long long width, long long height, size_t fileBytes, std::string_view name,
                  size_t pixelsPerByte);
+/// Holds `bytesPerPixel` for each pixel.
+Status holdPixels(long long width, long long height, size_t bytesPerPixel, std::string_view name,
+                  file::Budget& budget);
 
 }  // namespace lambent::image::formats

@@ -10,7 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 
@@ -71,18 +70,19 @@ struct Header {
   int height() const { return slow == 'X' ? fastSize : slowSize; }
 };
 
-// strtod reads until something that is no number; the line is copied because it has no zero at its
-// end.
+/// Numbers with blanks between them, up to something that is no number. A decimal point is a point
+/// in every locale.
 std::vector<double> numbersIn(std::string_view text) {
-  const std::string copy(text);
   std::vector<double> numbers;
-  const char* at = copy.c_str();
   for (;;) {
-    char* end = nullptr;
-    const double value = std::strtod(at, &end);
-    if (end == at) return numbers;
-    numbers.push_back(value);
-    at = end;
+    while (!text.empty() && (text[0] == ' ' || text[0] == '\t')) text.remove_prefix(1);
+    std::string_view digits = text;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error == std::errc::invalid_argument) return numbers;
+    numbers.push_back(error == std::errc() ? value : 0.0);  // beyond the range of a double: no use
+    text.remove_prefix(static_cast<size_t>(end - text.data()));
   }
 }
 
@@ -256,7 +256,7 @@ bool isHdr(Bytes bytes) {
   return bytes.size() >= 2 && bytes[0] == std::byte('#') && bytes[1] == std::byte('?');
 }
 
-Result<Image> readHdr(Bytes bytes, std::string_view name) {
+Result<Image> readHdr(Bytes bytes, std::string_view name, file::Budget& budget) {
   Cursor file(bytes, name);
   const Result<Header> header = readHeader(file, name);
   if (!header) return header.error();
@@ -264,6 +264,10 @@ Result<Image> readHdr(Bytes bytes, std::string_view name) {
           checkSize(header->width(), header->height(), bytes.size(), name, kMaxPixelsPerByte);
       !sane) {
     return sane.error();
+  }
+  if (Status fits = holdPixels(header->width(), header->height(), sizeof(Rgb), name, budget);
+      !fits) {
+    return fits.error();
   }
   Image image(header->width(), header->height());
   std::vector<Rgbe> line(header->fastSize);

@@ -1,10 +1,13 @@
 #include "lambent/image/io.h"
 
+#include <limits>
 #include <new>
 
 #include "lambent/file/atomic_file.h"
 #include "lambent/file/extension.h"
+#include "lambent/image/decode.h"
 #include "lambent/image/formats.h"
+#include "lambent/radiometry/tone.h"
 
 namespace lambent::image {
 namespace {
@@ -17,9 +20,74 @@ Result<std::vector<std::byte>> encode(const Image& image, const std::filesystem:
   return formats::writePng(image, path.string());
 }
 
+template <class Sample>
+Image toImage(const formats::Codes& codes, const std::vector<Sample>& rgba) {
+  constexpr int kLargest = std::numeric_limits<Sample>::max();
+  std::vector<float> linear(size_t(kLargest) + 1);
+  for (int i = 0; i <= kLargest; ++i) {
+    linear[i] = radiometry::srgbDecode(static_cast<float>(i) / kLargest);
+  }
+  Image image(codes.width, codes.height);
+  if (codes.hasAlpha) image.alpha.resize(image.pixels.size());
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    const float alpha = codes.hasAlpha ? static_cast<float>(rgba[4 * i + 3]) / kLargest : 1.0f;
+    for (int c = 0; c < 3; ++c) image.pixels[i][c] = linear[rgba[4 * i + c]] * alpha;
+    if (codes.hasAlpha) image.alpha[i] = alpha;
+  }
+  return image;
+}
+
+/// The codes of PNG, JPEG and WebP are sRGB-encoded, whatever profile is beside them.
+Result<Image> linearised(const Result<formats::Codes>& codes, std::string_view name,
+                         file::Budget& budget) {
+  if (!codes) return codes.error();
+  if (Status fits =
+          formats::holdPixels(codes->width, codes->height, codes->hasAlpha ? 16 : 12, name, budget);
+      !fits) {
+    return fits.error();
+  }
+  return codes->rgba16.empty() ? toImage(*codes, codes->rgba8) : toImage(*codes, codes->rgba16);
+}
+
+Result<Image> decodeAs(Format format, std::span<const std::byte> bytes, std::string_view name,
+                       file::Budget& budget) {
+  switch (format) {
+    case Format::Exr:
+      return formats::readExr(bytes, name, budget);
+    case Format::Hdr:
+      return formats::readHdr(bytes, name, budget);
+    case Format::Png:
+      return linearised(formats::readPng(bytes, name, formats::Depth::AsStored, budget), name,
+                        budget);
+    case Format::Jpeg:
+      return linearised(formats::readJpeg(bytes, name, budget), name, budget);
+    case Format::WebP:
+      return linearised(formats::readWebP(bytes, name, budget), name, budget);
+    case Format::Unknown:
+      break;
+  }
+  if (bytes.empty()) return report::badInput(std::string(name) + ": the file is empty");
+  return report::badInput(std::string(name) +
+                          ": not a picture that can be read, by its first bytes; convert it to "
+                          "OpenEXR, Radiance HDR, PNG, JPEG or WebP");
+}
+
 }  // namespace
 
 namespace formats {
+
+Error damaged(std::string_view name, const std::string& what, size_t at) {
+  return report::badInput(std::string(name) + ": " + what + " at byte " + std::to_string(at) +
+                          "; the file is damaged or cut off");
+}
+
+Status holdPixels(long long width, long long height, size_t bytesPerPixel, std::string_view name,
+                  file::Budget& budget) {
+  const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  return budget.hold(pixels * bytesPerPixel, std::string(name) + ": a picture of " +
+                                                 std::to_string(width) + "×" +
+                                                 std::to_string(height) + " pixels");
+}
 
 Status checkSize(long long width, long long height, size_t fileBytes, std::string_view name,
                  size_t pixelsPerByte) {
@@ -43,34 +111,34 @@ Status checkSize(long long width, long long height, size_t fileBytes, std::strin
 
 }  // namespace formats
 
-Result<Image> decode(std::span<const std::byte> bytes, std::string_view name) {
+Result<Image> decode(std::span<const std::byte> bytes, std::string_view name,
+                     const ReadOptions& options) {
+  file::Budget budget(options.memoryLimit);
+  budget.addFile(bytes.size());
   try {
-    if (formats::isExr(bytes)) return formats::readExr(bytes, name);
-    if (formats::isHdr(bytes)) return formats::readHdr(bytes, name);
-    if (formats::isPng(bytes) || formats::isJpeg(bytes)) return formats::readPngOrJpeg(bytes, name);
+    return decodeAs(formatOf(bytes), bytes, name, budget);
   } catch (const std::bad_alloc&) {
     return report::failed(std::string(name) + ": not enough memory to read the picture");
   }
-  if (bytes.empty()) return report::badInput(std::string(name) + ": the file is empty");
-  return report::badInput(std::string(name) +
-                          ": not a picture that can be read, by its first bytes; convert it to "
-                          "OpenEXR, Radiance HDR, PNG or JPEG");
 }
 
-Result<Image> read(const std::filesystem::path& path) {
+Result<Image> read(const std::filesystem::path& path, const ReadOptions& options) {
   const Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
-  return decode(*bytes, path.string());
+  return decode(*bytes, path.string(), options);
 }
 
-Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer) {
+Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer,
+                        const ReadOptions& options) {
   const Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
   if (!formats::isExr(*bytes)) {
     return report::badInput(path.string() + ": only OpenEXR pictures have further layers");
   }
+  file::Budget budget(options.memoryLimit);
+  budget.addFile(bytes->size());
   try {
-    return formats::readExr(*bytes, path.string(), layer);
+    return formats::readExr(*bytes, path.string(), budget, layer);
   } catch (const std::bad_alloc&) {
     return report::failed(path.string() + ": not enough memory to read the picture");
   }

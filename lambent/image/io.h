@@ -1,9 +1,11 @@
 // Files ⇄ Image, by extension: .exr (every compression OpenEXR reads; written ZIP, half or float),
-// .hdr (Radiance RGBE), .png (8 or 16 bit; colour is sRGB-encoded and becomes linear). JPEG is read
-// only.
+// .hdr (Radiance RGBE), .png (8 or 16 bit; colour is sRGB-encoded and becomes linear). JPEG and
+// WebP are read only.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,15 +20,23 @@ namespace lambent::image {
 /// No picture may have more pixels: 16384², 3 GiB in memory.
 inline constexpr size_t kMaxPixels = size_t(1) << 28;
 
+struct ReadOptions {
+  /// Bytes that reading may take; nothing: as much as a file of that size may need (see
+  /// file/budget.h).
+  std::optional<std::uint64_t> memoryLimit;
+};
+
 /// The file's first bytes say what it is; its extension is not asked. Values are kept as they
 /// stand, NaN, infinities and negatives too (see repair.h). BadInput names the file and the place
 /// in it.
-Result<Image> read(const std::filesystem::path& path);
+Result<Image> read(const std::filesystem::path& path, const ReadOptions& options = {});
 /// The same from memory; `name` stands in messages for the file.
-Result<Image> decode(std::span<const std::byte> bytes, std::string_view name);
+Result<Image> decode(std::span<const std::byte> bytes, std::string_view name,
+                     const ReadOptions& options = {});
 /// A further layer of an EXR file, as WriteOptions::layers writes it. BadInput if there is none of
 /// that name, or if it is no EXR file.
-Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer);
+Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer,
+                        const ReadOptions& options = {});
 
 struct WriteOptions {
   bool halfFloat = false;  ///< EXR: 16-bit channels instead of 32; finite values beyond ±65504 are

@@ -6,9 +6,9 @@
 #include <map>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/json.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_read.h"
-#include "lambent/scene_io/uri.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -96,10 +96,14 @@ std::size_t AccessorView::elementSize() const {
 }
 
 struct GltfFile::Impl {
+  Impl(const std::filesystem::path& where, const LoadOptions& options)
+      : path(where), files(where, options) {}
+
   std::filesystem::path path;
+  LinkedFiles files;
   nlohmann::json document;
   std::vector<std::byte> file;                           ///< the .glb, which BIN points into
-  std::map<std::string, std::vector<std::byte>> linked;  ///< by URI
+  std::map<std::string, std::vector<std::byte>> linked;  ///< by place, or data URI
   std::vector<Bytes> buffers;
 
   Error bad(const std::string& message) const {
@@ -158,11 +162,12 @@ Status GltfFile::Impl::readBuffers(std::optional<Bytes> binary) {
     Bytes bytes;
     if (const nlohmann::json* uri = find(buffer, "uri"); uri != nullptr && uri->is_string()) {
       const std::string text = uri->get<std::string>();
-      auto known = linked.find(text);
+      const std::string place = isDataUri(text) ? text : files.placeOf(text).string();
+      auto known = linked.find(place);
       if (known == linked.end()) {
-        Result<std::vector<std::byte>> content = readUri(text, path, name);
+        Result<std::vector<std::byte>> content = files.readUri(text, name);
         if (!content) return content.error();
-        known = linked.emplace(text, std::move(*content)).first;
+        known = linked.emplace(place, std::move(*content)).first;
       }
       bytes = known->second;
     } else if (i == 0 && binary) {
@@ -253,12 +258,18 @@ const std::filesystem::path& GltfFile::path() const {
 const nlohmann::json& GltfFile::json() const {
   return impl_->document;
 }
+LinkedFiles& GltfFile::linkedFiles() const {
+  return impl_->files;
+}
+file::Budget& GltfFile::budget() const {
+  return impl_->files.budget();
+}
 
-Result<GltfFile> GltfFile::open(const std::filesystem::path& path) {
+Result<GltfFile> GltfFile::open(const std::filesystem::path& path, const LoadOptions& options) {
   Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
-  auto impl = std::make_unique<Impl>();
-  impl->path = path;
+  auto impl = std::make_unique<Impl>(path, options);
+  impl->files.budget().addFile(bytes->size());
   impl->file = std::move(*bytes);
   if (impl->file.empty()) return impl->bad("the file is empty");
 
@@ -274,8 +285,13 @@ Result<GltfFile> GltfFile::open(const std::filesystem::path& path) {
     return impl->bad("is not a .glb: it does not begin with \"glTF\"; export it again");
   }
   const char* first = reinterpret_cast<const char*>(jsonBytes.data());
-  impl->document = nlohmann::json::parse(first, first + jsonBytes.size(), nullptr, false);
-  if (impl->document.is_discarded() || !impl->document.is_object()) {
+  Result<nlohmann::json> document = file::parseJson({first, jsonBytes.size()});
+  if (!document) {
+    return impl->bad("its JSON is damaged or the file is not glTF: " + document.error().message +
+                     "; export it again");
+  }
+  impl->document = std::move(*document);
+  if (!impl->document.is_object()) {
     return impl->bad("its JSON is damaged or the file is not glTF; export it again");
   }
   const std::string version = text(find(impl->document, "asset"), "version");
@@ -333,6 +349,11 @@ Result<std::vector<float>> GltfFile::accessorFloats(std::int64_t index, int comp
     return impl_->bad(name + " has no bytes and an absurd count");
   }
   const auto width = std::size_t(componentCount);
+  const std::uint64_t taken = std::uint64_t(accessor->count) * width * sizeof(float);
+  if (Status fits = impl_->files.budget().hold(taken, impl_->path.string() + ": " + name); !fits) {
+    return fits.error();
+  }
+  impl_->files.budget().release(taken);  // the caller keeps what it makes of them
   const std::size_t step = componentSize(accessor->component);
   std::vector<float> values(accessor->count * width, 0.0f);
   const auto copyElement = [&](const std::byte* from, float* to) {

@@ -25,11 +25,21 @@ using Mat4d = Eigen::Matrix4d;
 /// A small file may place one mesh a million times; this bounds what that may grow to.
 constexpr std::size_t kMaxTriangles = std::size_t(1) << 28;
 
+/// What looking for unused vertices, making normals and the like goes through for each vertex. A
+/// small file may show a few vertices each of one large accessor many times over.
+constexpr std::uint64_t kWorkPerVertex = 512;
+
+std::uint64_t bytesOf(const Mesh& mesh) {
+  return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
+         mesh.uvs.size() * sizeof(Vec2) + mesh.colors.size() * sizeof(Rgb) +
+         mesh.triangles.size() * sizeof(scene::Triangle);
+}
+
 /// Extensions that a file may *require* and Lambent reads, or can leave out without a wrong shape.
 bool isKnownExtension(std::string_view name) {
   if (name == "KHR_materials_pbrSpecularGlossiness") return false;
   for (std::string_view known : {"KHR_mesh_quantization", "KHR_texture_transform",
-                                 "KHR_lights_punctual", "KHR_xmp_json_ld"}) {
+                                 "KHR_lights_punctual", "KHR_xmp_json_ld", "EXT_texture_webp"}) {
     if (name == known) return true;
   }
   return name.starts_with("KHR_materials_") || name.starts_with("LAMBENT_");
@@ -43,8 +53,7 @@ std::string remedyFor(const std::string& extension) {
   if (extension == "EXT_meshopt_compression") {
     return "decompress it: npx @gltf-transform/cli copy IN.glb OUT.glb";
   }
-  if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" ||
-      extension == "EXT_texture_avif") {
+  if (extension == "KHR_texture_basisu" || extension == "EXT_texture_avif") {
     return "convert its textures to PNG: npx @gltf-transform/cli png IN.glb OUT.glb";
   }
   return "export it without this extension";
@@ -340,6 +349,11 @@ Status Loader::placeMesh(std::int64_t nodeIndex, std::int64_t meshIndex, const M
     if (!material) return material.error();
     Result<Mesh> mesh = readPrimitive(primitive, place, *material);
     if (!mesh) return mesh.error();
+    file::Budget& budget = file_.budget();
+    const std::string what = name_ + ": node " + std::to_string(nodeIndex) + ", " + place;
+    if (Status fits = budget.work(mesh->positions.size() * kWorkPerVertex, what); !fits) {
+      return fits;
+    }
     if (!world.isIdentity(0.0)) *mesh = scene::transformed(std::move(*mesh), world.cast<float>());
     mesh->name = name;
     if (count > 1) mesh->name += fmt::format("/{}", i);
@@ -357,6 +371,7 @@ Status Loader::placeMesh(std::int64_t nodeIndex, std::int64_t meshIndex, const M
       return bad("its nodes place more than " + std::to_string(kMaxTriangles) +
                  " triangles in all; Lambent makes every instance a mesh of its own");
     }
+    if (Status fits = budget.hold(bytesOf(*mesh), what); !fits) return fits;
     result_.loaded.scene.meshes.push_back(std::move(*mesh));
     result_.origins.push_back(origin);
   }
@@ -396,6 +411,7 @@ void Loader::placeCamera(const json& node, const Mat4d& world) {
 Result<LoadedGltf> Loader::load() {
   if (Status status = checkExtensions(); !status) return status.error();
   materials_.emplace(file_, result_.loaded.scene, diagnosis_);
+  if (Status status = materials_->read(); !status) return status.error();
   if (Status status = visitNodes(); !status) return status.error();
   if (result_.loaded.scene.meshes.empty()) {
     return bad("holds no triangles; Lambent needs a surface to bake");

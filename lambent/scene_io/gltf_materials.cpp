@@ -6,8 +6,6 @@
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_material.h"
-#include "lambent/scene_io/image_codec.h"
-#include "lambent/scene_io/uri.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -47,9 +45,14 @@ Vec2 TextureUse::apply(const Vec2& uv) const {
 }
 
 GltfMaterials::GltfMaterials(const GltfFile& file, scene::Scene& scene, Diagnosis& diagnosis)
-    : file_(file), scene_(scene), diagnosis_(diagnosis) {
-  const json* materials = find(file.json(), "materials");
-  for (std::size_t i = 0; i < arraySize(materials); ++i) readMaterial((*materials)[i], int(i));
+    : file_(file), scene_(scene), diagnosis_(diagnosis), images_(file) {}
+
+Status GltfMaterials::read() {
+  const json* materials = find(file_.json(), "materials");
+  for (std::size_t i = 0; i < arraySize(materials); ++i) {
+    if (Status status = readMaterial((*materials)[i], int(i)); !status) return status;
+  }
+  return Status::ok();
 }
 
 Result<int> GltfMaterials::indexOf(const json& primitive, const std::string& place) {
@@ -80,7 +83,7 @@ TextureUse GltfMaterials::textureUse(int material) const {
   return it == uses_.end() ? TextureUse() : it->second;
 }
 
-void GltfMaterials::readMaterial(const json& object, int index) {
+Status GltfMaterials::readMaterial(const json& object, int index) {
   scene::Material material;
   material.name = text(&object, "name");
   material.doubleSided = flag(&object, "doubleSided");
@@ -94,8 +97,10 @@ void GltfMaterials::readMaterial(const json& object, int index) {
   values.metallic = number(pbr, "metallicFactor", 1.0);
   values.roughness = number(pbr, "roughnessFactor", 1.0);
   if (const json* info = find(pbr, "metallicRoughnessTexture")) {
-    values.metallic *= meanOfChannel(info, 2);
-    values.roughness *= meanOfChannel(info, 1);
+    const auto picture = images_.pictureOf(integer(info, "index").value_or(-1));
+    if (!picture) return picture.error();
+    values.metallic *= (*picture)->meanChannels[2];
+    values.roughness *= (*picture)->meanChannels[1];
     diagnosis_.add(Severity::Note, "mean-metallic-roughness", 1,
                    "metallic-roughness textures were replaced by their mean", place);
   }
@@ -106,92 +111,77 @@ void GltfMaterials::readMaterial(const json& object, int index) {
 
   if (const json* info = find(pbr, "baseColorTexture")) {
     uses_[index] = textureUseOf(info);
-    material.baseColorTexture = readTexture(integer(info, "index").value_or(-1));
+    const Result<int> texture = readTexture(integer(info, "index").value_or(-1));
+    if (!texture) return texture.error();
+    material.baseColorTexture = *texture;
   }
   if (find(object, "normalTexture") != nullptr) {
     diagnosis_.add(Severity::Note, "normal-map-ignored", 1,
                    "normal maps are ignored: transfer is baked on the mesh itself", place);
   }
-  material.emission = readEmission(object, place);
+  const Result<Rgb> emission = readEmission(object, place);
+  if (!emission) return emission.error();
+  material.emission = *emission;
   if (const std::string mode = text(&object, "alphaMode"); mode == "BLEND" || mode == "MASK") {
     diagnosis_.add(Severity::Warning, "alpha-ignored", 1,
                    "materials are (partly) transparent and are taken as opaque", place);
   }
   scene_.materials.push_back(std::move(material));
+  return Status::ok();
 }
 
 // Constant over the surface: a texture of it is replaced by its mean.
-Rgb GltfMaterials::readEmission(const json& object, const std::string& place) {
+Result<Rgb> GltfMaterials::readEmission(const json& object, const std::string& place) {
   const auto factor = rgb(&object, "emissiveFactor");
-  if (!factor || !(factor->maxCoeff() > 0.0f)) return Rgb::Zero();
+  if (!factor || !(factor->maxCoeff() > 0.0f)) return Rgb(Rgb::Zero());
   Rgb emission = factor->max(0.0f).min(1.0f);
   const json* strength = find(find(object, "extensions"), "KHR_materials_emissive_strength");
   emission *= float(std::clamp(number(strength, "emissiveStrength", 1.0), 0.0, 1e9));
   if (const json* info = find(object, "emissiveTexture")) {
-    emission *= meanColor(info);
+    const auto picture = images_.pictureOf(integer(info, "index").value_or(-1));
+    if (!picture) return picture.error();
+    emission *= (*picture)->meanColor;
     diagnosis_.add(Severity::Note, "mean-emission", 1,
                    "emissive textures were replaced by their mean", place);
   }
   return emission;
 }
 
-Result<scene::Texture> GltfMaterials::readImage(std::int64_t index) const {
-  const std::string place = file_.path().string() + ": image " + std::to_string(index);
-  const json* object = element(file_.json(), "images", index);
-  if (object == nullptr) return report::badInput(place + " does not exist");
-  Result<scene::Texture> texture = report::badInput(place + " has neither a uri nor bytes");
-  if (const auto view = integer(object, "bufferView")) {
-    const auto bytes = file_.bufferViewBytes(*view);
-    if (!bytes) return bytes.error();
-    texture = decodeImage(*bytes, place);
-  } else if (const std::string uri = text(object, "uri"); !uri.empty()) {
-    const auto bytes = readUri(uri, file_.path(), "image " + std::to_string(index));
-    if (!bytes) return bytes.error();
-    texture = decodeImage(*bytes, place);
-  }
-  if (texture) texture->name = text(object, "name");
-  return texture;
-}
-
-int GltfMaterials::readTexture(std::int64_t index) {
+Result<int> GltfMaterials::readTexture(std::int64_t index) {
   const auto [entry, isNew] = textures_.try_emplace(index, -1);
   if (!isNew) return entry->second;
-  const json* object = element(file_.json(), "textures", index);
-  Result<scene::Texture> texture = readImage(integer(object, "source").value_or(-1));
-  if (!texture) {
+  const Result<GltfPicture*> found = images_.pictureOf(index);
+  if (!found) return found.error();
+  GltfPicture& picture = **found;
+  if (!picture.missing.empty()) {
     // A lost picture spoils the colours, not the transfer of light: say so and go on.
     diagnosis_.add(Severity::Warning, "texture-unreadable", 1,
                    "base-colour textures could not be read; the base-colour factor stands alone",
-                   texture.error().message);
+                   picture.missing);
     return -1;
   }
+  const json* object = element(file_.json(), "textures", index);
   const json* sampler = element(file_.json(), "samplers", integer(object, "sampler").value_or(-1));
-  texture->wrapU = wrapOf(integer(sampler, "wrapS"));
-  texture->wrapV = wrapOf(integer(sampler, "wrapT"));
+  scene::Texture texture;
+  if (picture.sceneTexture < 0) {
+    texture = std::move(picture.texture);
+    picture.sceneTexture = int(scene_.textures.size());
+  } else {  // the same picture, laid out otherwise
+    const scene::Texture& first = scene_.textures[std::size_t(picture.sceneTexture)];
+    if (Status fits =
+            file_.budget().hold(first.rgba.size() + first.encoded.size(),
+                                file_.path().string() + ": texture " + std::to_string(index));
+        !fits) {
+      return fits.error();
+    }
+    texture = first;
+  }
+  texture.name = images_.nameOf(index);
+  texture.wrapU = wrapOf(integer(sampler, "wrapS"));
+  texture.wrapV = wrapOf(integer(sampler, "wrapT"));
   entry->second = int(scene_.textures.size());
-  scene_.textures.push_back(std::move(*texture));
+  scene_.textures.push_back(std::move(texture));
   return entry->second;
-}
-
-Rgb GltfMaterials::meanColor(const json* textureInfo) {
-  const json* object =
-      element(file_.json(), "textures", integer(textureInfo, "index").value_or(-1));
-  const Result<scene::Texture> texture = readImage(integer(object, "source").value_or(-1));
-  if (!texture || texture->rgba.empty()) return Rgb::Ones();
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (std::size_t i = 0; i < texture->rgba.size(); i += 4)
-    for (int c = 0; c < 3; ++c) sum[c] += radiometry::srgbDecode(texture->rgba[i + c] / 255.0f);
-  return (sum / double(texture->rgba.size() / 4)).cast<float>();
-}
-
-double GltfMaterials::meanOfChannel(const json* textureInfo, int channel) {
-  const json* object =
-      element(file_.json(), "textures", integer(textureInfo, "index").value_or(-1));
-  const Result<scene::Texture> texture = readImage(integer(object, "source").value_or(-1));
-  if (!texture || texture->rgba.empty()) return channel == 2 ? 0.0 : 1.0;
-  double sum = 0.0;
-  for (std::size_t i = channel; i < texture->rgba.size(); i += 4) sum += texture->rgba[i];
-  return sum / (255.0 * double(texture->rgba.size() / 4));
 }
 
 }  // namespace lambent::scene_io

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/gltf_images.h"
 #include "lambent/scene_io/gltf_read.h"
 
 namespace lambent::scene_io {
@@ -26,24 +27,23 @@ struct TextureUse {
 class GltfMaterials {
  public:
   GltfMaterials(const GltfFile& file, scene::Scene& scene, Diagnosis& diagnosis);
+  /// Once, before anything is asked for.
+  Status read();
 
   /// The scene material of a primitive.
   Result<int> indexOf(const nlohmann::json& primitive, const std::string& place);
   TextureUse textureUse(int material) const;
 
  private:
-  void readMaterial(const nlohmann::json& object, int index);
-  Rgb readEmission(const nlohmann::json& object, const std::string& place);
-  int readTexture(std::int64_t texture);
-  Result<scene::Texture> readImage(std::int64_t image) const;
-  /// Mean of a channel of a texture, for factors that Lambent keeps per material: 1 if unreadable.
-  double meanOfChannel(const nlohmann::json* textureInfo, int channel);
-  /// Mean of an sRGB texture in linear RGB: white if unreadable.
-  Rgb meanColor(const nlohmann::json* textureInfo);
+  Status readMaterial(const nlohmann::json& object, int index);
+  Result<Rgb> readEmission(const nlohmann::json& object, const std::string& place);
+  /// The scene's texture for a glTF texture, or −1 and a Warning.
+  Result<int> readTexture(std::int64_t texture);
 
   const GltfFile& file_;
   scene::Scene& scene_;
   Diagnosis& diagnosis_;
+  GltfImages images_;
   std::map<int, TextureUse> uses_;
   std::map<std::int64_t, int> textures_;  ///< scene texture by glTF texture
   std::map<bool, int> defaults_;          ///< scene material by "has vertex colours"

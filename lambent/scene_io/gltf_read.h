@@ -17,6 +17,7 @@
 
 #include "lambent/report/result.h"
 #include "lambent/scene_io/gltf_write.h"
+#include "lambent/scene_io/linked_files.h"
 #include "lambent/scene_io/load.h"
 
 namespace lambent::scene_io {
@@ -38,13 +39,17 @@ class GltfFile {
  public:
   /// Reads and checks the container, the JSON and the buffers (embedded, data URIs, and files
   /// beside `path`). Errors are BadInput and name the file.
-  static Result<GltfFile> open(const std::filesystem::path& path);
+  static Result<GltfFile> open(const std::filesystem::path& path, const LoadOptions& options = {});
   GltfFile(GltfFile&&) noexcept;
   GltfFile& operator=(GltfFile&&) noexcept;
   ~GltfFile();
 
   const std::filesystem::path& path() const;
   const nlohmann::json& json() const;
+  /// The files that this one names, and the account of what reading costs, for all who read from
+  /// it.
+  LinkedFiles& linkedFiles() const;
+  file::Budget& budget() const;
 
   /// Bounds-checked; valid as long as this object lives. A sparse accessor is an error here (read
   /// it with accessorFloats). The error names the accessor and what is wrong with it.

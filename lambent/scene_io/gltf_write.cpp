@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/image/decode.h"
 #include "lambent/scene_io/gltf_material.h"
-#include "lambent/scene_io/image_codec.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -130,11 +130,11 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
   document["scenes"] = Json::array({Json::object()});
 
   for (const scene::Texture& texture : scene.textures) {
-    std::vector<std::uint8_t> png;
+    std::vector<std::byte> png;
     const bool carried = !texture.encoded.empty() &&
                          (texture.mimeType == "image/png" || texture.mimeType == "image/jpeg");
-    if (!carried) png = encodePng(texture.width, texture.height, texture.rgba);
-    Json image = {{"bufferView", addBufferView(bytesOf(carried ? texture.encoded : png))},
+    if (!carried) png = image::encodePng(texture.width, texture.height, 4, texture.rgba);
+    Json image = {{"bufferView", addBufferView(carried ? bytesOf(texture.encoded) : png)},
                   {"mimeType", carried ? texture.mimeType : "image/png"}};
     setName(image, texture.name);
     const int source = append(document, "images", std::move(image));

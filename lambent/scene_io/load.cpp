@@ -11,17 +11,17 @@
 namespace lambent::scene_io {
 namespace {
 
-Result<LoadedScene> loadByExtension(const std::filesystem::path& path) {
+Result<LoadedScene> loadByExtension(const std::filesystem::path& path, const LoadOptions& options) {
   const std::string extension = file::extensionOf(path);
   if (extension == ".glb" || extension == ".gltf") {
-    const Result<GltfFile> file = GltfFile::open(path);
+    const Result<GltfFile> file = GltfFile::open(path, options);
     if (!file) return file.error();
     Result<LoadedGltf> loaded = loadGltf(*file);
     if (!loaded) return loaded.error();
     return std::move(loaded->loaded);
   }
-  if (extension == ".obj") return loadObj(path);
-  if (extension == ".ply") return loadPly(path);
+  if (extension == ".obj") return loadObj(path, options);
+  if (extension == ".ply") return loadPly(path, options);
   return report::badInput(path.string() +
                           ": a scene is a .glb, .gltf, .obj or .ply file; convert it to one of "
                           "these");
@@ -29,9 +29,9 @@ Result<LoadedScene> loadByExtension(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<LoadedScene> load(const std::filesystem::path& path) {
+Result<LoadedScene> load(const std::filesystem::path& path, const LoadOptions& options) {
   try {
-    return loadByExtension(path);
+    return loadByExtension(path, options);
   } catch (const std::bad_alloc&) {
     return report::failed(path.string() + ": there is not enough memory to read it");
   }

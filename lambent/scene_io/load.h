@@ -1,7 +1,9 @@
 // glTF, OBJ, PLY → Scene, with a diagnosis of what was odd in the file.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "lambent/report/finding.h"
 #include "lambent/report/result.h"
@@ -14,9 +16,18 @@ struct LoadedScene {
   Findings findings;  ///< degenerate triangles kept out, normals made, flipped normals, …
 };
 
+struct LoadOptions {
+  /// Whether the files that the scene names (buffers, pictures, material libraries) may lie
+  /// anywhere, not only in its folder and below. For scenes that you trust.
+  bool allowOutside = false;
+  /// Bytes that reading may take, textures and geometry together; nothing: as much as files of that
+  /// size may need (see file/budget.h).
+  std::optional<std::uint64_t> memoryLimit;
+};
+
 /// By extension: .glb .gltf .obj .ply. A file that cannot be used is ErrorKind::BadInput whose
 /// message names the file, the place in it, and the remedy. Never yields NaN positions, indices out
 /// of range, non-unit normals or an empty scene.
-Result<LoadedScene> load(const std::filesystem::path& path);
+Result<LoadedScene> load(const std::filesystem::path& path, const LoadOptions& options = {});
 
 }  // namespace lambent::scene_io

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "lambent/file/atomic_file.h"
 #include "lambent/scene_io/gltf_material.h"
-#include "lambent/scene_io/image_codec.h"
 #include "lambent/scene_io/text_cursor.h"
+#include "lambent/scene_io/texture.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -96,41 +95,46 @@ scene::Material materialOf(const Entry& entry, bool hasMap, Diagnosis& diagnosis
 
 }  // namespace
 
-int readTextureFile(const std::filesystem::path& path, scene::Scene& scene, Diagnosis& diagnosis) {
-  std::error_code error;
-  Result<scene::Texture> texture = report::badInput(path.string() + " does not exist");
-  if (std::filesystem::is_regular_file(path, error)) {
-    const Result<std::vector<std::byte>> bytes = file::readWhole(path);
-    if (bytes) {
-      texture = decodeImage(*bytes, path.string());
-    } else {
-      texture = bytes.error();
-    }
-  }
-  if (!texture) {
+Result<int> readTextureFile(const std::filesystem::path& path, scene::Scene& scene,
+                            LinkedFiles& files, Diagnosis& diagnosis) {
+  const auto missing = [&](const std::string& why) {
     diagnosis.add(Severity::Warning, "texture-unreadable", 1,
-                  "base-colour textures could not be read; the colour stands alone",
-                  texture.error().message);
+                  "base-colour textures could not be read; the colour stands alone", why);
     return -1;
+  };
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return missing(path.string() + " does not exist");
   }
+  if (!files.mayRead(path)) return files.outside("a texture", path.string());
+  const Result<std::vector<std::byte>> bytes = files.read(path);
+  if (!bytes) return missing(bytes.error().message);
+  Result<scene::Texture> texture = decodeTexture(*bytes, path.string(), files.budget());
+  files.budget().release(bytes->size());
+  if (!texture && !isReadablePicture(*bytes)) return missing(texture.error().message);
+  if (!texture) return texture.error();
   texture->name = path.filename().string();
   scene.textures.push_back(std::move(*texture));
   return int(scene.textures.size() - 1);
 }
 
-void readMtl(const std::filesystem::path& path, scene::Scene& scene,
-             std::map<std::string, int, std::less<>>& known, Diagnosis& diagnosis) {
+Status readMtl(const std::filesystem::path& path, scene::Scene& scene,
+               std::map<std::string, int, std::less<>>& known,
+               std::set<std::filesystem::path>& libraries, LinkedFiles& files,
+               Diagnosis& diagnosis) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     diagnosis.add(Severity::Warning, "material-file-missing", 1,
                   "material files do not exist; their materials are grey", path.string());
-    return;
+    return Status::ok();
   }
-  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
+  if (!files.mayRead(path)) return files.outside("a material library", path.string());
+  if (!libraries.insert(std::filesystem::weakly_canonical(path, error)).second) return Status::ok();
+  const Result<std::vector<std::byte>> bytes = files.read(path);
   if (!bytes) {
     diagnosis.add(Severity::Warning, "material-file-missing", 1,
                   "material files could not be read; their materials are grey", path.string());
-    return;
+    return Status::ok();
   }
   std::vector<Entry> entries;
   TextCursor cursor(asText(*bytes));
@@ -168,7 +172,10 @@ void readMtl(const std::filesystem::path& path, scene::Scene& scene,
     if (!entry.diffuseMap.empty()) {
       const auto [place, isNew] = textures.try_emplace(entry.diffuseMap, -1);
       if (isNew) {
-        place->second = readTextureFile(path.parent_path() / entry.diffuseMap, scene, diagnosis);
+        const Result<int> read =
+            readTextureFile(path.parent_path() / entry.diffuseMap, scene, files, diagnosis);
+        if (!read) return read.error();
+        place->second = *read;
       }
       texture = place->second;
     }
@@ -182,6 +189,7 @@ void readMtl(const std::filesystem::path& path, scene::Scene& scene,
       scene.materials.push_back(std::move(material));
     }
   }
+  return Status::ok();
 }
 
 }  // namespace lambent::scene_io

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 #include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/linked_files.h"
 
 namespace lambent::scene_io {
 
@@ -19,11 +21,17 @@ namespace lambent::scene_io {
 ///  - otherwise Ks is glossy with lobe exponent Ns (1 … 10⁴), except for Ks = 0.5 0.5 0.5, which
 ///    Blender writes for every material ("specular 0.5", which means 4% there): diffuse alone.
 ///  - Kd + Ks above 1 is scaled down to 1.
-/// A missing or unreadable file is a Warning: the geometry is there.
-void readMtl(const std::filesystem::path& path, scene::Scene& scene,
-             std::map<std::string, int, std::less<>>& known, Diagnosis& diagnosis);
+/// A missing or unreadable file is a Warning: the geometry is there. A picture that is damaged or
+/// too large is an error, and so is a file outside of the scene's folder unless it may lie there.
+/// `libraries` names those that were read already, which are not read again.
+Status readMtl(const std::filesystem::path& path, scene::Scene& scene,
+               std::map<std::string, int, std::less<>>& known,
+               std::set<std::filesystem::path>& libraries, LinkedFiles& files,
+               Diagnosis& diagnosis);
 
-/// Reads an image file beside a model as a texture; −1 and a Warning if it cannot be read.
-int readTextureFile(const std::filesystem::path& path, scene::Scene& scene, Diagnosis& diagnosis);
+/// Reads an image file beside a model as a texture; −1 and a Warning if it is missing or of a kind
+/// that is not read.
+Result<int> readTextureFile(const std::filesystem::path& path, scene::Scene& scene,
+                            LinkedFiles& files, Diagnosis& diagnosis);
 
 }  // namespace lambent::scene_io

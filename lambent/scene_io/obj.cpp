@@ -2,12 +2,14 @@
 
 #include <charconv>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 
 #include "lambent/file/atomic_file.h"
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/linked_files.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/polygon.h"
 #include "lambent/scene_io/text_cursor.h"
@@ -40,7 +42,8 @@ struct Part {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::filesystem::path& path) : path_(path), name_(path.string()) {}
+  ObjReader(const std::filesystem::path& path, const LoadOptions& options)
+      : path_(path), name_(path.string()), files_(path, options) {}
 
   Result<LoadedScene> read();
 
@@ -53,13 +56,16 @@ class ObjReader {
   Status readFace(TextCursor& cursor);
   std::optional<Error> readIndex(const char*& p, const char* end, std::size_t count,
                                  const char* kind, std::size_t line, std::int32_t& index) const;
-  void readLibraries(std::string_view names);
+  Status readLibrary(const std::string& name);
+  Status readLibraries(std::string_view names);
   Part& part();
   Result<scene::Mesh> build(const Part& part, std::vector<std::uint32_t>& groups) const;
   int materialOf(const Part& part);
 
   std::filesystem::path path_;
   std::string name_;
+  LinkedFiles files_;
+  std::set<std::filesystem::path> libraries_;  ///< read already
   std::vector<Vec3> positions_, normals_;
   std::vector<Vec2> uvs_;
   std::vector<Rgb> colors_;  ///< as many as positions, or empty
@@ -160,18 +166,22 @@ Status ObjReader::readFace(TextCursor& cursor) {
   return Status::ok();
 }
 
-void ObjReader::readLibraries(std::string_view names) {
+Status ObjReader::readLibrary(const std::string& name) {
+  return readMtl(path_.parent_path() / name, scene_, materials_, libraries_, files_, diagnosis_);
+}
+
+Status ObjReader::readLibraries(std::string_view names) {
   std::error_code error;
-  const std::filesystem::path folder = path_.parent_path();
   // A name may have blanks, and a line may have several names.
-  if (std::filesystem::exists(folder / std::string(names), error)) {
-    return readMtl(folder / std::string(names), scene_, materials_, diagnosis_);
+  if (std::filesystem::exists(path_.parent_path() / std::string(names), error)) {
+    return readLibrary(std::string(names));
   }
   TextCursor words(names);
   words.nextLine();
   for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
-    readMtl(folder / std::string(word), scene_, materials_, diagnosis_);
+    if (Status status = readLibrary(std::string(word)); !status) return status;
   }
+  return Status::ok();
 }
 
 Status ObjReader::readLines(std::string_view text) {
@@ -200,7 +210,7 @@ Status ObjReader::readLines(std::string_view text) {
       material_ = cursor.rest();
       current_ = nullptr;
     } else if (key == "mtllib") {
-      readLibraries(cursor.rest());
+      status = readLibraries(cursor.rest());
     } else if (key == "l" || key == "p" || key == "curv" || key == "surf") {
       diagnosis_.add(Severity::Note, "no-triangles", 1,
                      "points, lines and free-form elements were left out",
@@ -291,6 +301,7 @@ int ObjReader::materialOf(const Part& part) {
 Result<LoadedScene> ObjReader::read() {
   const Result<std::vector<std::byte>> bytes = file::readWhole(path_);
   if (!bytes) return bytes.error();
+  files_.budget().addFile(bytes->size());
   if (Status status = readLines(asText(*bytes)); !status) return status.error();
 
   for (const Part& part : parts_) {
@@ -319,8 +330,8 @@ Result<LoadedScene> ObjReader::read() {
 
 }  // namespace
 
-Result<LoadedScene> loadObj(const std::filesystem::path& path) {
-  return ObjReader(path).read();
+Result<LoadedScene> loadObj(const std::filesystem::path& path, const LoadOptions& options) {
+  return ObjReader(path, options).read();
 }
 
 }  // namespace lambent::scene_io

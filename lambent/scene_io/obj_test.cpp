@@ -1,8 +1,8 @@
 #include "lambent/scene_io/obj.h"
 
+#include "lambent/image/decode.h"
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/shapes.h"
-#include "lambent/scene_io/image_codec.h"
 #include "lambent/scene_io/polygon.h"
 #include "lambent/scene_io/test_files.h"
 
@@ -109,8 +109,7 @@ Pm 1
 Pr 0
 )");
   const std::vector<std::uint8_t> texels = {255, 0, 0, 255};
-  const std::vector<std::uint8_t> png = encodePng(1, 1, texels);
-  folder_.write("wood grain.png", std::as_bytes(std::span(png)));
+  folder_.write("wood grain.png", std::span<const std::byte>(image::encodePng(1, 1, 4, texels)));
   std::string text = "mtllib my materials.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
   for (const char* name :
        {"red clay", "lacquer", "silver", "matte", "bright", "picture", "pbr", "lacquer"}) {

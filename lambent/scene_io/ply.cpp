@@ -10,6 +10,7 @@
 #include "lambent/file/atomic_file.h"
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/linked_files.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/ply_header.h"
 #include "lambent/scene_io/polygon.h"
@@ -134,8 +135,9 @@ Role roleOf(std::string_view name) {
 
 class PlyReader {
  public:
-  PlyReader(const std::filesystem::path& path, const PlyHeader& header, Body body)
-      : path_(path), name_(path.string()), header_(header), body_(body) {}
+  PlyReader(const std::filesystem::path& path, const PlyHeader& header, Body body,
+            LinkedFiles& files)
+      : path_(path), name_(path.string()), header_(header), body_(body), files_(files) {}
 
   Result<LoadedScene> read();
 
@@ -159,6 +161,7 @@ class PlyReader {
   std::string name_;
   const PlyHeader& header_;
   Body body_;
+  LinkedFiles& files_;
   scene::Mesh mesh_;
   std::vector<double> list_;
   std::vector<Vec3> polygon_;
@@ -370,8 +373,10 @@ Result<LoadedScene> PlyReader::read() {
   LoadedScene loaded;
   scene::Material material;
   if (!header_.textureFile.empty() && !mesh_.uvs.empty()) {
-    material.baseColorTexture =
-        readTextureFile(path_.parent_path() / header_.textureFile, loaded.scene, diagnosis_);
+    const Result<int> texture = readTextureFile(path_.parent_path() / header_.textureFile,
+                                                loaded.scene, files_, diagnosis_);
+    if (!texture) return texture.error();
+    material.baseColorTexture = *texture;
   }
   if (colored || material.baseColorTexture >= 0) material.diffuse = Rgb::Ones();
   loaded.scene.materials.push_back(std::move(material));
@@ -382,13 +387,15 @@ Result<LoadedScene> PlyReader::read() {
 
 }  // namespace
 
-Result<LoadedScene> loadPly(const std::filesystem::path& path) {
+Result<LoadedScene> loadPly(const std::filesystem::path& path, const LoadOptions& options) {
   const Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
   const std::string_view text = asText(*bytes);
   const Result<PlyHeader> header = readPlyHeader(text, path.string());
   if (!header) return header.error();
-  return PlyReader(path, *header, Body(text.substr(header->size), header->format)).read();
+  LinkedFiles files(path, options);
+  files.budget().addFile(bytes->size());
+  return PlyReader(path, *header, Body(text.substr(header->size), header->format), files).read();
 }
 
 }  // namespace lambent::scene_io

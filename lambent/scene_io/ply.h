@@ -9,6 +9,6 @@ namespace lambent::scene_io {
 /// as sRGB and floats as linear), element face (vertex_indices or vertex_index) and element
 /// tristrips; skips whatever else the header declares. "comment TextureFile NAME" is the
 /// base-colour texture.
-Result<LoadedScene> loadPly(const std::filesystem::path& path);
+Result<LoadedScene> loadPly(const std::filesystem::path& path, const LoadOptions& options = {});
 
 }  // namespace lambent::scene_io

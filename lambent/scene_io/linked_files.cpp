@@ -1,5 +1,6 @@
-#include "lambent/scene_io/uri.h"
+#include "lambent/scene_io/linked_files.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 
@@ -69,9 +70,50 @@ bool isDataUri(std::string_view uri) {
   return uri.starts_with("data:");
 }
 
-Result<std::vector<std::byte>> readUri(const std::string& uri, const std::filesystem::path& base,
-                                       const std::string& what) {
-  const std::string file = base.string();
+bool LinkedFiles::mayRead(const std::filesystem::path& path) const {
+  if (options_.allowOutside) return true;
+  std::error_code error;
+  std::filesystem::path folder = scene_.parent_path();
+  if (folder.empty()) folder = ".";
+  folder = std::filesystem::weakly_canonical(folder, error);
+  if (error) return false;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
+  if (error) return false;
+  return std::mismatch(folder.begin(), folder.end(), target.begin(), target.end()).first ==
+         folder.end();
+}
+
+Error LinkedFiles::outside(const std::string& what, const std::string& name) const {
+  return report::badInput(scene_.string() + ": " + what + " is the file " + name.substr(0, 200) +
+                          ", which lies outside of the scene's folder; put it there, or allow it "
+                          "with --allow-outside if you trust the scene");
+}
+
+std::filesystem::path LinkedFiles::placeOf(const std::string& uri) const {
+  std::error_code error;
+  const std::filesystem::path path = scene_.parent_path() / percentDecoded(uri);
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
+  return error ? path : canonical;
+}
+
+bool LinkedFiles::mayReadUri(const std::string& uri) const {
+  if (isDataUri(uri) || uri.find("://") != std::string::npos) return true;
+  return mayRead(scene_.parent_path() / percentDecoded(uri));
+}
+
+Result<std::vector<std::byte>> LinkedFiles::read(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error) {
+    budget_.addFile(size);
+    if (Status fits = budget_.hold(size, path.string()); !fits) return fits.error();
+  }
+  return file::readWhole(path);
+}
+
+Result<std::vector<std::byte>> LinkedFiles::readUri(const std::string& uri,
+                                                    const std::string& what) {
+  const std::string file = scene_.string();
   if (isDataUri(uri)) {
     const std::size_t comma = uri.find(',');
     const std::string_view head = std::string_view(uri).substr(0, std::min(comma, uri.size()));
@@ -90,7 +132,8 @@ Result<std::vector<std::byte>> readUri(const std::string& uri, const std::filesy
     return report::badInput(file + ": " + what + " is at " + uri.substr(0, 200) +
                             "; Lambent reads no network: download it beside the file");
   }
-  const std::filesystem::path path = base.parent_path() / percentDecoded(uri);
+  if (!mayReadUri(uri)) return outside(what, uri);
+  const std::filesystem::path path = scene_.parent_path() / percentDecoded(uri);
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (error || !std::filesystem::exists(status)) {
@@ -102,7 +145,7 @@ Result<std::vector<std::byte>> readUri(const std::string& uri, const std::filesy
     return report::badInput(file + ": " + what + " is " + path.string() +
                             ", which is not a regular file");
   }
-  return file::readWhole(path);
+  return read(path);
 }
 
 }  // namespace lambent::scene_io

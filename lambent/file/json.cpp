@@ -1,0 +1,53 @@
+#include "lambent/file/json.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace lambent::file {
+namespace {
+
+/// A message of the parser quotes what it read last, which may be long.
+constexpr std::size_t kLongestReason = 300;
+
+/// Where brackets first nest too deep, as an offset. Whether the text is JSON at all is the
+/// parser's to say.
+std::optional<std::size_t> tooDeepAt(std::string_view text) {
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    switch (text[i]) {
+      case '"':
+        for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
+        break;
+      case '[':
+      case '{':
+        if (++depth > kDeepestJson) return i;
+        break;
+      case ']':
+      case '}':
+        --depth;
+        break;
+      default:
+        break;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<nlohmann::json> parseJson(std::string_view text) {
+  if (const auto at = tooDeepAt(text)) {
+    return report::badInput("its values are nested more than " + std::to_string(kDeepestJson) +
+                            " deep at byte " + std::to_string(*at));
+  }
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& problem) {
+    const std::string_view reason = problem.what();
+    if (reason.size() <= kLongestReason) return report::badInput(std::string(reason));
+    return report::badInput(std::string(reason.substr(0, kLongestReason)) + "...");
+  }
+}
+
+}  // namespace lambent::file

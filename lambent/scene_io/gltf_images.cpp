@@ -1,0 +1,128 @@
+#include "lambent/scene_io/gltf_images.h"
+
+#include "lambent/radiometry/tone.h"
+#include "lambent/scene_io/gltf_json.h"
+#include "lambent/scene_io/linked_files.h"
+#include "lambent/scene_io/texture.h"
+
+namespace lambent::scene_io {
+namespace {
+
+using nlohmann::json;
+
+std::int64_t indexOf(const json* textureInfo) {
+  return integer(textureInfo, "index").value_or(-1);
+}
+
+void takeMeans(GltfPicture& picture) {
+  const std::vector<std::uint8_t>& rgba = picture.texture.rgba;
+  std::array<double, 256> linear;
+  for (int code = 0; code < 256; ++code) {
+    linear[std::size_t(code)] = radiometry::srgbDecode(float(code) / 255.0f);
+  }
+  Eigen::Array3d color = Eigen::Array3d::Zero();
+  std::array<double, 4> channels{};
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    for (int c = 0; c < 3; ++c) color[c] += linear[rgba[i + std::size_t(c)]];
+    for (std::size_t c = 0; c < 4; ++c) channels[c] += rgba[i + c];
+  }
+  const double count = double(rgba.size() / 4);
+  picture.meanColor = (color / count).cast<float>();
+  for (std::size_t c = 0; c < 4; ++c) picture.meanChannels[c] = channels[c] / (255.0 * count);
+}
+
+}  // namespace
+
+GltfImages::GltfImages(const GltfFile& file) : file_(file) {
+  const json* materials = find(file.json(), "materials");
+  for (std::size_t i = 0; i < arraySize(materials); ++i) {
+    const json& material = (*materials)[i];
+    const json* pbr = find(material, "pbrMetallicRoughness");
+    const auto want = [&](const json* info, std::set<std::string>& keys) {
+      if (info != nullptr) keys.insert(keyOf(sourceOf(indexOf(info))));
+    };
+    want(find(pbr, "baseColorTexture"), texelsWanted_);
+    want(find(pbr, "metallicRoughnessTexture"), meansWanted_);
+    want(find(material, "emissiveTexture"), meansWanted_);
+  }
+}
+
+std::int64_t GltfImages::sourceOf(std::int64_t texture) const {
+  const json* object = element(file_.json(), "textures", texture);
+  if (const auto source = integer(object, "source")) return *source;
+  const json* webp = find(find(object, "extensions"), "EXT_texture_webp");
+  return integer(webp, "source").value_or(-1);
+}
+
+std::string GltfImages::keyOf(std::int64_t image) const {
+  const json* object = element(file_.json(), "images", image);
+  if (const auto view = integer(object, "bufferView")) return "view " + std::to_string(*view);
+  const std::string uri = text(object, "uri");
+  return isDataUri(uri) ? uri : "file " + file_.linkedFiles().placeOf(uri).string();
+}
+
+Result<GltfPicture> GltfImages::read(std::int64_t image, const std::string& key) const {
+  const std::string place = file_.path().string() + ": image " + std::to_string(image);
+  GltfPicture picture;
+  const json* object = element(file_.json(), "images", image);
+  if (object == nullptr) {
+    picture.missing = place + " does not exist";
+    return picture;
+  }
+  const std::string uri = text(object, "uri");
+  std::vector<std::byte> linked;
+  std::span<const std::byte> bytes;
+  if (const auto view = integer(object, "bufferView")) {
+    const auto found = file_.bufferViewBytes(*view);
+    if (!found) {
+      picture.missing = found.error().message;
+      return picture;
+    }
+    bytes = *found;
+  } else if (!uri.empty()) {
+    const std::string what = "image " + std::to_string(image);
+    LinkedFiles& files = file_.linkedFiles();
+    if (!files.mayReadUri(uri)) return files.outside(what, uri);
+    auto content = files.readUri(uri, what);
+    if (!content) {
+      picture.missing = content.error().message;
+      return picture;
+    }
+    linked = std::move(*content);
+    bytes = linked;
+  } else {
+    picture.missing = place + " has neither a uri nor bytes";
+    return picture;
+  }
+  file::Budget& budget = file_.budget();
+  Result<scene::Texture> texture = decodeTexture(bytes, place, budget);
+  if (!texture && !isReadablePicture(bytes)) {
+    picture.missing = texture.error().message;
+    return picture;
+  }
+  if (!texture) return texture.error();
+  if (!isDataUri(uri)) budget.release(linked.size());
+  picture.texture = std::move(*texture);
+  if (meansWanted_.contains(key)) takeMeans(picture);
+  if (!texelsWanted_.contains(key)) {
+    budget.release(picture.texture.rgba.size() + picture.texture.encoded.size());
+    picture.texture = {};
+  }
+  return picture;
+}
+
+std::string GltfImages::nameOf(std::int64_t texture) const {
+  return text(element(file_.json(), "images", sourceOf(texture)), "name");
+}
+
+Result<GltfPicture*> GltfImages::pictureOf(std::int64_t texture) {
+  const std::int64_t image = sourceOf(texture);
+  const std::string key = keyOf(image);
+  const auto known = pictures_.find(key);
+  if (known != pictures_.end()) return &known->second;
+  Result<GltfPicture> picture = read(image, key);
+  if (!picture) return picture.error();
+  return &pictures_.emplace(key, std::move(*picture)).first->second;
+}
+
+}  // namespace lambent::scene_io
