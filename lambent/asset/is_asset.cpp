@@ -10,6 +10,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/asset/format.h"
 #include "lambent/file/failure.h"
+#include "lambent/file/json.h"
 
 namespace lambent::asset {
 
@@ -57,10 +58,10 @@ Result<bool> isAsset(const std::filesystem::path& path) {
     return false;
   }
   if (text.find(kExtensionName) == std::string::npos) return false;  // cheaper than to parse
-  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
-  if (!document.is_object()) return false;
-  const auto extensions = document.find("extensions");
-  return extensions != document.end() && extensions->is_object() &&
+  const Result<nlohmann::json> document = file::parseJson(text);
+  if (!document || !document->is_object()) return false;
+  const auto extensions = document->find("extensions");
+  return extensions != document->end() && extensions->is_object() &&
          extensions->contains(kExtensionName);
 }
 

@@ -13,6 +13,7 @@
 #include "lambent/asset/json_fields.h"
 #include "lambent/asset/rtt_part.h"
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/json.h"
 #include "lambent/transfer/names.h"
 
 namespace lambent::asset {
@@ -105,9 +106,10 @@ Result<EncodedRtt> readRtt(const std::filesystem::path& path) {
     return bad("cut off: its header says " + std::to_string(header.jsonBytes) +
                " bytes of JSON, and " + std::to_string(rest.size()) + " are left");
   const auto* text = reinterpret_cast<const char*>(rest.data());
-  const nlohmann::json json = nlohmann::json::parse(text, text + header.jsonBytes, nullptr, false);
+  const Result<nlohmann::json> parsed = file::parseJson({text, header.jsonBytes});
   rest = rest.subspan(header.jsonBytes);
-  if (json.is_discarded() || !json.is_object()) return bad("its header is not a JSON object");
+  if (!parsed || !parsed->is_object()) return bad("its header is not a JSON object");
+  const nlohmann::json& json = *parsed;
 
   Fault fault;
   JsonFields fields(json, "header", fault);

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/json.h"
 
 namespace lambent::light {
 using report::badInput;
@@ -52,13 +53,12 @@ Result<sh::RgbCoefficients> readLight(const std::filesystem::path& path) {
                              size));
   const Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
-  nlohmann::json json;
-  try {
-    const char* text = reinterpret_cast<const char*>(bytes->data());
-    json = nlohmann::json::parse(text, text + bytes->size());
-  } catch (const nlohmann::json::exception& e) {
-    return wrong(path, fmt::format("not JSON ({}). A light looks like {}", e.what(), kExample));
-  }
+  const char* text = reinterpret_cast<const char*>(bytes->data());
+  const Result<nlohmann::json> parsed = file::parseJson({text, bytes->size()});
+  if (!parsed)
+    return wrong(path, fmt::format("not JSON ({}). A light looks like {}", parsed.error().message,
+                                   kExample));
+  const nlohmann::json& json = *parsed;
   const auto isLight = [&] {
     return json.is_object() && json.contains("lambent") && json["lambent"] == "light";
   };

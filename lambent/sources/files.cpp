@@ -113,7 +113,7 @@ std::optional<Result<Light>> lightFromFile(std::string_view name, const SourceOp
     if (!light) return Result<Light>(light.error());
     return Result<Light>(Light{light::Environment::harmonics(std::move(*light)), {}});
   }
-  for (const std::string_view known : {".exr", ".hdr", ".png", ".jpg", ".jpeg"})
+  for (const std::string_view known : {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"})
     if (extension == known) return readMap(path, image::MapKind::LatLong, options);
   return std::nullopt;
 }

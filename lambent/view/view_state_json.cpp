@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/json.h"
 #include "lambent/light/windowing.h"
 #include "lambent/view/view_state.h"
 
@@ -170,12 +171,10 @@ void readDiscs(Reader& reader, const Json& json, std::vector<Disc>& into) {
 }  // namespace
 
 Result<ViewState> parseViewState(std::string_view text, const std::string& name) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Json::exception& e) {
-    return report::badInput(fmt::format("{}: not JSON ({})", name, e.what()));
-  }
+  const Result<Json> parsed = file::parseJson(text);
+  if (!parsed)
+    return report::badInput(fmt::format("{}: not JSON ({})", name, parsed.error().message));
+  const Json& json = *parsed;
   const auto lambent = json.is_object() ? json.find("lambent") : json.end();
   if (!json.is_object() || lambent == json.end() || *lambent != "view")
     return report::badInput(fmt::format(
