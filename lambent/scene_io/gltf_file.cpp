@@ -5,8 +5,8 @@
 #include <cstring>
 #include <map>
 
-#include "lambent/file/atomic_file.h"
 #include "lambent/file/json.h"
+#include "lambent/scene_io/gltf_component.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_read.h"
 
@@ -19,74 +19,10 @@ using Bytes = std::span<const std::byte>;
 /// An accessor without a buffer view is all zeros and no bytes of the file bound its size.
 constexpr std::int64_t kMaxImplicitCount = std::int64_t(1) << 22;
 
-std::size_t componentSize(Component component) {
-  switch (component) {
-    case Component::Byte:
-    case Component::UnsignedByte:
-      return 1;
-    case Component::Short:
-    case Component::UnsignedShort:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
-std::optional<Component> componentOf(std::optional<std::int64_t> code) {
-  for (Component c : {Component::Byte, Component::UnsignedByte, Component::Short,
-                      Component::UnsignedShort, Component::UnsignedInt, Component::Float}) {
-    if (code && *code == int(c)) return c;
-  }
-  return {};
-}
-
-int componentCountOf(std::string_view type) {
-  constexpr std::pair<std::string_view, int> kTypes[] = {
-      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-  for (const auto& [name, count] : kTypes) {
-    if (type == name) return count;
-  }
-  return 0;
-}
-
 std::uint32_t littleEndian32(Bytes bytes, std::size_t offset) {
   std::uint32_t value = 0;
   for (int i = 3; i >= 0; --i) value = value << 8 | std::uint32_t(bytes[offset + i]);
   return value;
-}
-
-template <class T>
-T load(const std::byte* p) {
-  T value;
-  std::memcpy(&value, p, sizeof(T));
-  return value;
-}
-
-/// One component as glTF reads it (§3.11 for normalized integers).
-float toFloat(const std::byte* p, Component component, bool normalized) {
-  switch (component) {
-    case Component::Byte: {
-      const float v = load<std::int8_t>(p);
-      return normalized ? std::max(v / 127.0f, -1.0f) : v;
-    }
-    case Component::UnsignedByte: {
-      const float v = load<std::uint8_t>(p);
-      return normalized ? v / 255.0f : v;
-    }
-    case Component::Short: {
-      const float v = load<std::int16_t>(p);
-      return normalized ? std::max(v / 32767.0f, -1.0f) : v;
-    }
-    case Component::UnsignedShort: {
-      const float v = load<std::uint16_t>(p);
-      return normalized ? v / 65535.0f : v;
-    }
-    case Component::UnsignedInt:
-      return float(load<std::uint32_t>(p));
-    case Component::Float:
-      break;
-  }
-  return load<float>(p);
 }
 
 }  // namespace
@@ -266,10 +202,9 @@ file::Budget& GltfFile::budget() const {
 }
 
 Result<GltfFile> GltfFile::open(const std::filesystem::path& path, const LoadOptions& options) {
-  Result<std::vector<std::byte>> bytes = file::readWhole(path);
-  if (!bytes) return bytes.error();
   auto impl = std::make_unique<Impl>(path, options);
-  impl->files.budget().addFile(bytes->size());
+  Result<std::vector<std::byte>> bytes = impl->files.readScene();
+  if (!bytes) return bytes.error();
   impl->file = std::move(*bytes);
   if (impl->file.empty()) return impl->bad("the file is empty");
 
@@ -390,10 +325,10 @@ Result<std::vector<float>> GltfFile::accessorFloats(std::int64_t index, int comp
   }
   for (std::size_t i = 0; i < places.count; ++i) {
     const std::byte* p = places.bytes.data() + i * places.stride;
-    const std::size_t place = places.component == Component::UnsignedInt ? load<std::uint32_t>(p)
-                              : places.component == Component::UnsignedShort
-                                  ? load<std::uint16_t>(p)
-                                  : load<std::uint8_t>(p);
+    const std::size_t place =
+        places.component == Component::UnsignedInt     ? loadComponent<std::uint32_t>(p)
+        : places.component == Component::UnsignedShort ? loadComponent<std::uint16_t>(p)
+                                                       : loadComponent<std::uint8_t>(p);
     if (place >= accessor->count) {
       return impl_->bad(name + " replaces element " + std::to_string(place) + " of " +
                         std::to_string(accessor->count));

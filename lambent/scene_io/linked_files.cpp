@@ -70,6 +70,12 @@ bool isDataUri(std::string_view uri) {
   return uri.starts_with("data:");
 }
 
+Result<std::vector<std::byte>> LinkedFiles::readScene() {
+  Result<std::vector<std::byte>> bytes = file::readWhole(scene_);
+  if (bytes) budget_.addFile(bytes->size());
+  return bytes;
+}
+
 bool LinkedFiles::mayRead(const std::filesystem::path& path) const {
   if (options_.allowOutside) return true;
   std::error_code error;

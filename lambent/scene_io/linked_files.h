@@ -29,6 +29,9 @@ class LinkedFiles {
   /// What reading the scene costs, with all the files that it names.
   file::Budget& budget() { return budget_; }
 
+  /// The scene's own file.
+  Result<std::vector<std::byte>> readScene();
+
   /// Whether `path` lies in the scene's folder or below, once links and ".." are followed, or may
   /// lie anywhere.
   bool mayRead(const std::filesystem::path& path) const;

@@ -6,7 +6,6 @@
 #include <string>
 #include <unordered_map>
 
-#include "lambent/file/atomic_file.h"
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/linked_files.h"
@@ -299,9 +298,8 @@ int ObjReader::materialOf(const Part& part) {
 }
 
 Result<LoadedScene> ObjReader::read() {
-  const Result<std::vector<std::byte>> bytes = file::readWhole(path_);
+  const Result<std::vector<std::byte>> bytes = files_.readScene();
   if (!bytes) return bytes.error();
-  files_.budget().addFile(bytes->size());
   if (Status status = readLines(asText(*bytes)); !status) return status.error();
 
   for (const Part& part : parts_) {

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <string>
 
-#include "lambent/file/atomic_file.h"
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/linked_files.h"
@@ -388,13 +387,12 @@ Result<LoadedScene> PlyReader::read() {
 }  // namespace
 
 Result<LoadedScene> loadPly(const std::filesystem::path& path, const LoadOptions& options) {
-  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
+  LinkedFiles files(path, options);
+  const Result<std::vector<std::byte>> bytes = files.readScene();
   if (!bytes) return bytes.error();
   const std::string_view text = asText(*bytes);
   const Result<PlyHeader> header = readPlyHeader(text, path.string());
   if (!header) return header.error();
-  LinkedFiles files(path, options);
-  files.budget().addFile(bytes->size());
   return PlyReader(path, *header, Body(text.substr(header->size), header->format), files).read();
 }
 
