@@ -48,7 +48,8 @@ Status Budget::hold(std::uint64_t bytes, std::string_view what) {
 }
 
 Status Budget::work(std::uint64_t bytes, std::string_view what) {
-  const std::uint64_t most = times(limit(), kWorkPerByte);
+  const std::uint64_t most =
+      given_ ? times(*given_, kWorkPerByte) : sum(kFloorBytes, times(read_, kBytesPerByte));
   worked_ = sum(worked_, bytes);
   if (worked_ <= most) return Status::ok();
   return report::badInput(std::string(what) + " would bring what has to be gone through to " +

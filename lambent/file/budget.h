@@ -18,7 +18,8 @@ namespace lambent::file {
 inline constexpr std::uint64_t kMostBytes = std::uint64_t(6) << 30;
 inline constexpr std::uint64_t kFloorBytes = std::uint64_t(512) << 20;
 inline constexpr std::uint64_t kBytesPerByte = 1000;
-/// Bytes that may pass through memory in all, a multiple of those that may be held at a time.
+/// Bytes that may pass through memory in all: as many as above without kMostBytes, or this multiple
+/// of a limit of the caller's.
 inline constexpr std::uint64_t kWorkPerByte = 8;
 
 class Budget {

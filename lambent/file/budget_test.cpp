@@ -18,7 +18,8 @@ TEST(Budget, RefusesWhatAFileOfThatSizeCannotNeed) {
             "513.0 MiB for one file of 1000 bytes; make it smaller, or allow more "
             "(--memory-limit)");
   budget.release(kFloorBytes);
-  EXPECT_TRUE(budget.hold(kFloorBytes, "b.png"));
+  EXPECT_TRUE(budget.hold(1000 * kBytesPerByte, "b.png"));
+  EXPECT_FALSE(budget.work(1, "b.png"));
   EXPECT_FALSE(budget.hold(~std::uint64_t(0), "c.png"));
 }
 

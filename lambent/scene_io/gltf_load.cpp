@@ -28,7 +28,7 @@ constexpr std::size_t kMaxTriangles = std::size_t(1) << 28;
 
 /// What looking for unused vertices, making normals and the like goes through for each vertex. A
 /// small file may show a few vertices each of one large accessor many times over.
-constexpr std::uint64_t kWorkPerVertex = 512;
+constexpr std::uint64_t kWorkPerVertex = 128;
 
 std::uint64_t bytesOf(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
