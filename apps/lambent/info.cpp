@@ -9,6 +9,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/receiver_file.h"
+#include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
 #include "lambent/asset/rtt_file.h"
@@ -36,7 +37,8 @@ struct Whole {
   Description description;
 };
 
-Result<Whole> describeModel(const std::filesystem::path& path, Console& console) {
+Result<Whole> describeModel(const std::filesystem::path& path, const scene_io::LoadOptions& loading,
+                            Console& console) {
   if (extensionOf(path) == ".glb") {
     const Result<bool> baked = asset::isAsset(path);
     if (!baked) return baked.error();
@@ -50,7 +52,7 @@ Result<Whole> describeModel(const std::filesystem::path& path, Console& console)
       return Whole{"asset", scene};
     }
   }
-  const auto loaded = scene_io::load(path);
+  const auto loaded = scene_io::load(path, loading);
   if (!loaded) {
     if (extensionOf(path) == ".ply" && loaded.error().kind == ErrorKind::BadInput) {
       if (const auto receivers = readReceivers(path))
@@ -65,8 +67,9 @@ Result<Whole> describeModel(const std::filesystem::path& path, Console& console)
   return Whole{"scene", describe(loaded->scene)};
 }
 
-Result<Whole> describeImage(const std::filesystem::path& path) {
-  auto image = image::read(path);
+Result<Whole> describeImage(const std::filesystem::path& path,
+                            const scene_io::LoadOptions& loading) {
+  auto image = image::read(path, {.memoryLimit = loading.memoryLimit});
   if (!image) return image.error();
   Description d = describe(*image);
   if (image->width == 2 * image->height) {  // the shape of a latitude-longitude map
@@ -77,16 +80,18 @@ Result<Whole> describeImage(const std::filesystem::path& path) {
   return Whole{"image", d};
 }
 
-Result<Whole> describeFile(const std::filesystem::path& path, Console& console) {
+Result<Whole> describeFile(const std::filesystem::path& path, const scene_io::LoadOptions& loading,
+                           Console& console) {
   const std::string extension = extensionOf(path);
   if (extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".ply")
-    return describeModel(path, console);
+    return describeModel(path, loading, console);
   if (extension == ".rtt") {
     const auto rtt = asset::readRtt(path);
     if (!rtt) return rtt.error();
     return Whole{"radiance transfer texture", describe(asset::summarize(*rtt))};
   }
-  if (extension == ".exr" || extension == ".hdr" || extension == ".png") return describeImage(path);
+  for (const std::string_view picture : {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"})
+    if (extension == picture) return describeImage(path, loading);
   if (extension == ".json") {
     const auto light = light::readLight(path);
     if (!light) return light.error();
@@ -101,12 +106,13 @@ Result<Whole> describeFile(const std::filesystem::path& path, Console& console) 
   }
   return badInput(fmt::format(
       "{}: what ends in '{}' is unknown here; info reads .glb .gltf .obj .ply .exr .hdr .png "
-      ".json .csv .rtt",
+      ".jpg .webp .json .csv .rtt",
       path.string(), extension));
 }
 
-Status runInfo(const std::filesystem::path& path, Console& console) {
-  const auto whole = describeFile(path, console);
+Status runInfo(const std::filesystem::path& path, const scene_io::LoadOptions& loading,
+               Console& console) {
+  const auto whole = describeFile(path, loading, console);
   if (!whole) return whole.error();
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
@@ -120,14 +126,21 @@ Status runInfo(const std::filesystem::path& path, Console& console) {
 }  // namespace
 
 Verb addInfo(CLI::App& root, ConsoleOptions& common) {
-  auto path = std::make_shared<std::filesystem::path>();
+  struct Arguments {
+    std::filesystem::path path;
+    scene_io::LoadOptions loading;
+  };
+  auto arguments = std::make_shared<Arguments>();
   CLI::App* app =
       root.add_subcommand("info", "Say what is in a scene, an asset, an image or a light");
   app->group("Verbs");
   app->footer(std::string(kExamples));
-  app->add_option("FILE", *path, "The file to look into")->required();
+  app->add_option("FILE", arguments->path, "The file to look into")->required();
+  addLoadOptions(*app, arguments->loading);
   addCommonOptions(*app, common);
-  return {app, [path](Console& console) { return runInfo(*path, console); }};
+  return {app, [arguments](Console& console) {
+            return runInfo(arguments->path, arguments->loading, console);
+          }};
 }
 
 }  // namespace lambent::tool

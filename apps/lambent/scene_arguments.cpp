@@ -7,7 +7,6 @@
 #include "apps/lambent/arguments.h"
 #include "lambent/asset/asset.h"
 #include "lambent/scene/shapes.h"
-#include "lambent/scene_io/load.h"
 
 namespace lambent::tool {
 
@@ -50,6 +49,19 @@ void addGround(scene::Scene& scene) {
 
 }  // namespace
 
+void addLoadOptions(CLI::App& app, scene_io::LoadOptions& options) {
+  app.add_flag("--allow-outside", options.allowOutside,
+               "Read the buffers, pictures and material libraries that a scene names wherever they "
+               "lie, not only in its folder and below: for scenes that you trust")
+      ->group("Reading");
+  app.add_option("--memory-limit", options.memoryLimit,
+                 "The most that the scene's textures and geometry may take in memory, such as "
+                 "500MiB or 16GiB (default: as much as a file of its size can need, at most 6 GiB)")
+      ->transform(CLI::AsSizeValue(false))
+      ->option_text("SIZE")
+      ->group("Reading");
+}
+
 void SceneArguments::addTo(CLI::App& app) {
   app.add_option("SCENE", path, "The scene: .glb, .gltf, .obj or .ply")->required();
   addChoice(app, "--material", material,
@@ -78,6 +90,7 @@ void SceneArguments::addTo(CLI::App& app) {
   app.add_flag("--ground", ground,
                "Put the scene on a grey floor, 1.6 times as wide, that takes shadows and light")
       ->group("Material");
+  addLoadOptions(app, loading);
 }
 
 Result<scene::Scene> SceneArguments::load(Console& console) const {
@@ -92,7 +105,7 @@ Result<scene::Scene> SceneArguments::load(Console& console) const {
     if (!asset) return asset.error();
     scene = std::move(asset->scene);
   } else {
-    auto loaded = console.stage("load", [&] { return scene_io::load(path); });
+    auto loaded = console.stage("load", [&] { return scene_io::load(path, loading); });
     if (!loaded) return loaded.error();
     console.report(loaded->findings);
     scene = std::move(loaded->scene);
