@@ -8,7 +8,7 @@
 #include "lambent/image/io.h"
 #include "lambent/image/test_codecs.h"
 #include "lambent/image/test_pictures.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 
 namespace lambent::image {
 namespace {

@@ -7,7 +7,7 @@
 #include "lambent/file/extension.h"
 #include "lambent/image/decode.h"
 #include "lambent/image/formats.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 
 namespace lambent::image {
 namespace {

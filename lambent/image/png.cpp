@@ -15,7 +15,7 @@
 
 #include "lambent/image/decode.h"
 #include "lambent/image/formats.h"
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"

@@ -1,6 +1,6 @@
 #include "lambent/scene_io/gltf_images.h"
 
-#include "lambent/radiometry/tone.h"
+#include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/linked_files.h"
 #include "lambent/scene_io/texture.h"
