@@ -3,7 +3,7 @@ BUILD  ?= build/release
 PREFIX ?= /usr/local
 JOBS   ?= $(shell nproc)
 # Rooms whose tests run under sanitizers in `make asan`: where files, bits and indices are handled.
-ASAN_ROOMS ?= file math radiometry sh image tone scene scene_io encode asset light sources capture view atlas synthesis
+ASAN_ROOMS ?= file math radiometry sh image tone scene scene_io transfer asset light sources capture view atlas synthesis
 
 $(shell mkdir -p build)
 

@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 
+#include "lambent/math/directions.h"
 #include "lambent/sh/basis.h"
 
 namespace lambent::image {
@@ -119,10 +120,7 @@ class LatLongProjection {
     std::vector<double> values(coefficients);
     for (int s = 0; s < samples; ++s) {
       const double phi = 2 * kPi * s / samples;
-      sh::evaluate(bands_,
-                   Vec3d(std::cos(elevation) * std::cos(phi), std::sin(elevation),
-                         std::cos(elevation) * std::sin(phi)),
-                   values);
+      sh::evaluate(bands_, math::directionFromAzimuthElevation(phi, elevation), values);
       for (int t = 0; t < terms_; ++t) {
         const double weight = (t == 0 ? 1.0 : 2.0) / samples * wave(t, phi);
         for (int i = 0; i < coefficients; ++i) {

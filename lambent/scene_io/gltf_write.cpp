@@ -7,6 +7,7 @@
 
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/decode.h"
+#include "lambent/scene_io/gltf_component.h"
 #include "lambent/scene_io/gltf_material.h"
 
 namespace lambent::scene_io {
@@ -15,28 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-
-// Both serve an assertion only.
-[[maybe_unused]] int componentSize(Component component) {
-  switch (component) {
-    case Component::Byte:
-    case Component::UnsignedByte:
-      return 1;
-    case Component::Short:
-    case Component::UnsignedShort:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
-[[maybe_unused]] int componentCount(std::string_view type) {
-  if (type == "SCALAR") return 1;
-  if (type == "VEC2") return 2;
-  if (type == "VEC3") return 3;
-  assert(type == "VEC4");
-  return 4;
-}
 
 template <class T>
 std::span<const std::byte> bytesOf(const std::vector<T>& values) {
@@ -229,7 +208,7 @@ int GltfBuilder::addBufferView(std::span<const std::byte> bytes, std::optional<i
 int GltfBuilder::addAccessor(std::span<const std::byte> bytes, Component component,
                              std::string_view type, std::size_t count, bool normalized,
                              std::optional<int> target) {
-  assert(bytes.size() == count * std::size_t(componentSize(component) * componentCount(type)));
+  assert(bytes.size() == count * componentSize(component) * std::size_t(componentCountOf(type)));
   Json accessor = {{"bufferView", addBufferView(bytes, target)},
                    {"componentType", int(component)},
                    {"type", type},
