@@ -1,4 +1,4 @@
-// From linear radiance to what a screen shows: radiometry::toneMap and srgbEncode, checked against
+// From linear radiance to what a screen shows: tone::toneMap and srgbEncode, checked against
 // them by a table test. NaN and what is negative become 0.
 
 float positiveRadiance(float x) { return x > 0.0 ? min(x, 65504.0) : 0.0; }

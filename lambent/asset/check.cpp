@@ -89,11 +89,12 @@ std::string meshLabel(const scene::Scene& scene, std::size_t mesh) {
 
 std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mesh& mesh,
                                    const EncodedField& field) {
-  if (const auto* surface = std::get_if<Surface>(&transfer))
-    return faultOnReceivers(*surface, mesh, field);
-  if (const auto* biScale = std::get_if<BiScale>(&transfer))
-    return faultOnReceivers(*biScale, mesh, field);
-  return std::nullopt;
+  using Fault = std::optional<std::string>;
+  return std::visit(
+      transfer::ForEachKind{
+          [](const transfer::NoTransfer&) -> Fault { return std::nullopt; },
+          [&](const auto& held) -> Fault { return faultOnReceivers(held, mesh, field); }},
+      transfer);
 }
 
 std::optional<std::string> faultOf(const Asset& asset) {
@@ -119,10 +120,9 @@ PartBytes bytesOf(const Asset& asset) {
                       bytesOf(mesh.triangles).size();
   for (const scene::Texture& texture : asset.scene.textures)
     bytes.textures += texture.encoded.size();
-  for (const EncodedMesh& mesh : asset.transfer.meshes) {
-    if (const auto* surface = std::get_if<Surface>(&mesh)) count(*surface, bytes);
-    if (const auto* biScale = std::get_if<BiScale>(&mesh)) count(*biScale, bytes);
-  }
+  const transfer::ForEachKind countOne{[](const transfer::NoTransfer&) {},
+                                       [&](const auto& held) { count(held, bytes); }};
+  for (const EncodedMesh& mesh : asset.transfer.meshes) std::visit(countOne, mesh);
   for (const transfer::EncodedRtt& rtt : asset.transfer.rtts) count(rtt, bytes);
   return bytes;
 }

@@ -38,11 +38,13 @@ json rootObject(const transfer::EncodedField& field) {
 /// None for a mirror.
 std::optional<json> primitiveObject(const transfer::EncodedMesh& mesh, transfer::Kind kind,
                                     GltfBuilder& gltf) {
-  if (const auto* surface = std::get_if<transfer::Surface<Numbers>>(&mesh))
-    return toJson(*surface, kind, gltf);
-  if (const auto* biScale = std::get_if<transfer::BiScale<Numbers>>(&mesh))
-    return toJson(*biScale, gltf);
-  return std::nullopt;
+  using Object = std::optional<json>;
+  return std::visit(
+      transfer::ForEachKind{
+          [](const transfer::NoTransfer&) -> Object { return std::nullopt; },
+          [&](const transfer::Surface<Numbers>& s) -> Object { return toJson(s, kind, gltf); },
+          [&](const transfer::BiScale<Numbers>& b) -> Object { return toJson(b, gltf); }},
+      mesh);
 }
 
 }  // namespace

@@ -7,8 +7,11 @@
 namespace lambent::render {
 
 bool GlScene::isPatched(std::uint32_t mesh) const {
-  return std::holds_alternative<transfer::BiScale<transfer::Numbers>>(
-             asset_->transfer.meshes[mesh]) &&
+  using transfer::Numbers;
+  return std::visit(transfer::ForEachKind{[](const transfer::NoTransfer&) { return false; },
+                                          [](const transfer::Surface<Numbers>&) { return false; },
+                                          [](const transfer::BiScale<Numbers>&) { return true; }},
+                    asset_->transfer.meshes[mesh]) &&
          !asset_->scene.materials[asset_->scene.meshes[mesh].material].isMirror();
 }
 

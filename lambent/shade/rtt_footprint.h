@@ -1,6 +1,6 @@
 // How much of a patch a sub-sample of a picture stands for, and the reads of the pyramid that
-// average about as much. shaders/rtt_footprint.glsl is the same in GLSL: what is changed here is to
-// be changed there.
+// average about as much. shaders/rtt_footprint.glsl is the same in GLSL; tests/shaders holds the two
+// together.
 #pragma once
 
 #include "lambent/math/types.h"

@@ -144,12 +144,15 @@ std::vector<Rgb> surfaceRadiance(const asset::Asset& asset, std::uint32_t mesh,
 std::vector<Rgb> exitRadiance(const asset::Asset& asset, std::uint32_t mesh,
                               const sh::RgbCoefficients& light, const ReceiverView& view) {
   assert(mesh < asset.transfer.meshes.size() && mesh < asset.scene.meshes.size());
-  const transfer::EncodedMesh& stored = asset.transfer.meshes[mesh];
-  if (std::holds_alternative<transfer::BiScale<Numbers>>(stored))
-    return patchRadiance(asset, mesh, light, view);
-  if (std::holds_alternative<transfer::Surface<Numbers>>(stored))
-    return surfaceRadiance(asset, mesh, light, view);
-  return {};
+  using Radiance = std::vector<Rgb>;
+  return std::visit(transfer::ForEachKind{[](const transfer::NoTransfer&) { return Radiance(); },
+                                          [&](const transfer::Surface<Numbers>&) {
+                                            return surfaceRadiance(asset, mesh, light, view);
+                                          },
+                                          [&](const transfer::BiScale<Numbers>&) {
+                                            return patchRadiance(asset, mesh, light, view);
+                                          }},
+                    asset.transfer.meshes[mesh]);
 }
 
 }  // namespace lambent::shade

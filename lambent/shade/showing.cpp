@@ -35,11 +35,12 @@ Kind kindShown(const EncodedMesh& mesh, const Showing& showing) {
   const auto shown = [](const auto& held, std::optional<Kind> wanted) {
     return held.mostUpTo(wanted.value_or(Kind::Interreflected)).value_or(Kind::Unshadowed);
   };
-  if (const auto* surface = std::get_if<Surface>(&mesh))
-    return shown(surface->responses, showing.surfaces);
-  if (const auto* biScale = std::get_if<BiScale>(&mesh))
-    return shown(biScale->matrices, showing.mesoStructure);
-  return Kind::Unshadowed;
+  return std::visit(
+      transfer::ForEachKind{
+          [](const transfer::NoTransfer&) { return Kind::Unshadowed; },
+          [&](const Surface& surface) { return shown(surface.responses, showing.surfaces); },
+          [&](const BiScale& biScale) { return shown(biScale.matrices, showing.mesoStructure); }},
+      mesh);
 }
 
 bool offers(const asset::Asset& asset, Kind kind) {

@@ -72,14 +72,11 @@ Field<M> mapped(const Field<N>& from, const F& ofSurfaces, const G& ofBiScale) {
   const auto& [kind, bands, directions, bounces, seed, passEnergy, meshes, rtts] = from;
   Field<M> to{kind, bands, directions, bounces, seed, passEnergy, {}, {}};
   to.meshes.reserve(meshes.size());
-  for (const MeshTransfer<N>& mesh : meshes) {
-    if (const auto* surface = std::get_if<Surface<N>>(&mesh))
-      to.meshes.emplace_back(mapped<M>(*surface, ofSurfaces));
-    else if (const auto* biScale = std::get_if<BiScale<N>>(&mesh))
-      to.meshes.emplace_back(mapped<M>(*biScale, ofBiScale));
-    else
-      to.meshes.emplace_back(std::get<NoTransfer>(mesh));
-  }
+  const ForEachKind one{
+      [](const NoTransfer& none) -> MeshTransfer<M> { return none; },
+      [&](const Surface<N>& surface) -> MeshTransfer<M> { return mapped<M>(surface, ofSurfaces); },
+      [&](const BiScale<N>& biScale) -> MeshTransfer<M> { return mapped<M>(biScale, ofBiScale); }};
+  for (const MeshTransfer<N>& mesh : meshes) to.meshes.push_back(std::visit(one, mesh));
   for (const Rtt<N>& rtt : rtts) to.rtts.push_back(mapped(rtt, ofSurfaces));
   return to;
 }

@@ -38,12 +38,21 @@ using EncodedMesh = MeshTransfer<Numbers>;
 using SimulatedRtt = Rtt<Floats>;
 using EncodedRtt = Rtt<Numbers>;
 
+/// What is done with each kind of transfer, for std::visit: a kind that is left out does not compile.
+template <class... Each>
+struct ForEachKind : Each... {
+  using Each::operator()...;
+};
+template <class... Each>
+ForEachKind(Each...) -> ForEachKind<Each...>;
+
 /// Null for a mirror.
 template <class N>
 const Receivers* receiversOf(const MeshTransfer<N>& mesh) {
-  if (const auto* surface = std::get_if<Surface<N>>(&mesh)) return surface->receivers.get();
-  if (const auto* biScale = std::get_if<BiScale<N>>(&mesh)) return biScale->receivers.get();
-  return nullptr;
+  return std::visit(
+      ForEachKind{[](const NoTransfer&) -> const Receivers* { return nullptr; },
+                  [](const auto& held) -> const Receivers* { return held.receivers.get(); }},
+      mesh);
 }
 
 /// Whether a mesh can be shown under a kind. Unshadowed always can: that takes its receivers'
@@ -51,9 +60,11 @@ const Receivers* receiversOf(const MeshTransfer<N>& mesh) {
 template <class N>
 bool offers(const MeshTransfer<N>& mesh, Kind kind) {
   if (kind == Kind::Unshadowed) return true;
-  if (const auto* surface = std::get_if<Surface<N>>(&mesh)) return surface->responses.holds(kind);
-  if (const auto* biScale = std::get_if<BiScale<N>>(&mesh)) return biScale->matrices.holds(kind);
-  return true;
+  return std::visit(
+      ForEachKind{[](const NoTransfer&) { return true; },
+                  [&](const Surface<N>& surface) { return surface.responses.holds(kind); },
+                  [&](const BiScale<N>& biScale) { return biScale.matrices.holds(kind); }},
+      mesh);
 }
 
 }  // namespace lambent::transfer

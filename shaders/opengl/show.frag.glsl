@@ -1,5 +1,5 @@
 // The mean of the frames that were added up, over its background, exposed and coded for a screen:
-// shade::finishPicture, radiometry::toneMap and sRGB coding.
+// shade::finishPicture, tone::toneMap and sRGB coding.
 //
 // Before this text stands: tone.glsl.
 
