@@ -11,15 +11,23 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string_view>
 #include <thread>
+#include <vector>
 
+#include "apps/lambent/web_connections.h"
 #include "apps/lambent/web_manifest.h"
 
 namespace lambent::tool {
@@ -53,8 +61,46 @@ std::string mimeType(const std::string& name) {
   return found == types.end() ? "application/octet-stream" : found->second;
 }
 
+struct Piece {
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+};
+
+/// What the header Range asks for of `size` bytes: nothing for what is to be answered with all of
+/// them, as is everything but one range of bytes. A count of 0 is what no byte satisfies.
+std::optional<Piece> askedRange(const httplib::Request& request, std::uint64_t size) {
+  // There are no validators, so that no If-Range matches.
+  if (request.method != "GET" || !request.has_header("Range") || request.has_header("If-Range"))
+    return {};
+  constexpr std::string_view kUnit = "bytes=";
+  const std::string header = request.get_header_value("Range");
+  const std::size_t dash = header.find('-');
+  if (!header.starts_with(kUnit) || dash == header.npos) return {};
+  const std::string_view from = std::string_view(header).substr(0, dash).substr(kUnit.size());
+  const std::string_view to = std::string_view(header).substr(dash + 1);
+
+  bool wellFormed = !(from.empty() && to.empty());
+  const auto number = [&](std::string_view text, std::uint64_t ifEmpty) {
+    if (text.empty()) return ifEmpty;
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (end != text.data() + text.size()) wellFormed = false;
+    return error == std::errc::result_out_of_range ? UINT64_MAX : value;
+  };
+  const std::uint64_t first = number(from, 0);
+  const std::uint64_t last = number(to, UINT64_MAX);
+  if (!wellFormed || (!from.empty() && last < first)) return {};
+  if (from.empty()) {  // the last so many
+    const std::uint64_t count = std::min(last, size);
+    return Piece{size - count, count};
+  }
+  if (first >= size) return Piece{};
+  return Piece{first, std::min(last, size - 1) - first + 1};
+}
+
 /// Sends a file piece by piece: an asset can be larger than what one would hold in memory.
-void sendFile(const fs::path& path, const std::string& type, httplib::Response& response) {
+void sendFile(const fs::path& path, const std::string& type, const httplib::Request& request,
+              httplib::Response& response) {
   auto stream = std::make_shared<std::ifstream>(path, std::ios::binary);
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
@@ -64,15 +110,29 @@ void sendFile(const fs::path& path, const std::string& type, httplib::Response& 
                          "text/plain; charset=utf-8");
     return;
   }
-  if (size == 0) return response.set_content("", type.c_str());
+  response.set_header("Accept-Ranges", "bytes");
+  Piece piece{0, size};
+  if (const auto asked = askedRange(request, size)) {
+    piece = *asked;
+    if (piece.count == 0) {
+      response.status = 416;
+      response.set_header("Content-Range", fmt::format("bytes */{}", size));
+      return response.set_content("The file ends before that\n", "text/plain; charset=utf-8");
+    }
+    response.status = 206;
+    response.set_header("Content-Range", fmt::format("bytes {}-{}/{}", piece.first,
+                                                     piece.first + piece.count - 1, size));
+  }
+  if (piece.count == 0) return response.set_content("", type.c_str());
   response.set_content_provider(
-      size, type.c_str(),
-      [stream](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
-        std::vector<char> piece(std::min<std::size_t>(length, 1 << 18));
-        stream->seekg(std::streamoff(offset));
-        stream->read(piece.data(), std::streamsize(piece.size()));
+      piece.count, type.c_str(),
+      [stream, first = piece.first](std::size_t offset, std::size_t length,
+                                    httplib::DataSink& sink) {
+        std::vector<char> bytes(std::min<std::size_t>(length, 1 << 18));
+        stream->seekg(std::streamoff(first + offset));
+        stream->read(bytes.data(), std::streamsize(bytes.size()));
         if (stream->gcount() <= 0) return false;
-        sink.write(piece.data(), std::size_t(stream->gcount()));
+        sink.write(bytes.data(), std::size_t(stream->gcount()));
         return true;
       });
 }
@@ -86,7 +146,7 @@ void answer(const ServedFiles& files, const httplib::Request& request,
   }
   const std::string type = mimeType(found->first);
   if (const auto* path = std::get_if<fs::path>(&found->second))
-    return sendFile(*path, type, response);
+    return sendFile(*path, type, request, response);
   response.set_content(std::get<std::string>(found->second), type.c_str());
 }
 
@@ -151,7 +211,7 @@ Status serveViewer(const fs::path& asset, std::span<const std::string> environme
   const Result<ServedFiles> files = filesToServe(*page, asset, environments, console);
   if (!files) return files.error();
 
-  httplib::Server server;
+  ConnectionServer server;
   server.set_default_headers({{"Content-Security-Policy", kContentPolicy},
                               {"X-Content-Type-Options", "nosniff"},
                               {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -173,6 +233,8 @@ Status serveViewer(const fs::path& asset, std::span<const std::string> environme
         fmt::format("cannot listen on {}:{}: {}. --port 0 takes one that is free", kHost, port,
                     errno == EADDRINUSE ? "something else does already" : strerror(errno)));
 
+  server.lengthenBacklog();
+
   server.set_pre_routing_handler(
       [bound](const httplib::Request& request, httplib::Response& response) {
         if (isOurHost(request.get_header_value("Host"), bound))
@@ -186,7 +248,13 @@ Status serveViewer(const fs::path& asset, std::span<const std::string> environme
     answer(*files, request, response);
   });
 
-  std::thread listening([&] { server.listen_after_bind(); });
+  std::atomic<bool> over = false;
+  std::thread listening([&] {
+    server.listen_after_bind();
+    over = true;
+  });
+  // stop() does nothing to a server that does not run yet.
+  while (!server.is_running() && !over) std::this_thread::yield();
   const std::string url = fmt::format("http://{}:{}/", kHost, bound);
   fmt::print("{}\n", url);
   std::fflush(stdout);
@@ -194,6 +262,7 @@ Status serveViewer(const fs::path& asset, std::span<const std::string> environme
   if (openBrowser) openInBrowser(url);
   const Status ended = waitForEnd();
   server.stop();
+  server.hangUp();
   listening.join();
   return ended;
 }
