@@ -1,16 +1,28 @@
 #include "lambent/math/isa.h"
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
 #include <cstdlib>
 #include <string_view>
 
 namespace lambent::math {
+
+#if defined(__x86_64__)
+/// __builtin_cpu_supports("f16c") is unknown to clang before 15, so this bit is read by hand.
+static bool hasF16c() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C);
+}
+#endif
 
 static Isa detect() {
   Isa best = Isa::Baseline;
 #if defined(__x86_64__)
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-      __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("f16c"))
+      __builtin_cpu_supports("bmi2") && hasF16c())
     best = Isa::Avx2;
   if (best == Isa::Avx2 && __builtin_cpu_supports("avx512f") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
