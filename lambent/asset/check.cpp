@@ -89,11 +89,11 @@ std::string meshLabel(const scene::Scene& scene, std::size_t mesh) {
 
 std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mesh& mesh,
                                    const EncodedField& field) {
-  using Fault = std::optional<std::string>;
+  using Found = std::optional<std::string>;
   return std::visit(
       transfer::ForEachKind{
-          [](const transfer::NoTransfer&) -> Fault { return std::nullopt; },
-          [&](const auto& held) -> Fault { return faultOnReceivers(held, mesh, field); }},
+          [](const transfer::NoTransfer&) -> Found { return std::nullopt; },
+          [&](const auto& held) -> Found { return faultOnReceivers(held, mesh, field); }},
       transfer);
 }
 
