@@ -105,9 +105,11 @@ def soak(tool, folder, assets, display, arguments) -> int:
     rounds = [reports[i:i + len(assets)] for i in range(0, len(reports), len(assets))]
     rounds = [r for r in rounds if len(r) == len(assets)]
     memory = [max(report["resident_bytes"] for report in r) for r in rounds]
-    # The first rounds fill what drivers and allocators keep; after half of them all is there.
+    # The first rounds fill what drivers and allocators keep, and the very first never counts: of few
+    # rounds it would be half of the middle. After half of them all is there.
     half = len(memory) // 2
-    middle, end = statistics.median(memory[half // 2:half + 1]), statistics.median(memory[-3:])
+    middle = statistics.median(memory[max(1, half // 2):half + 1])
+    end = statistics.median(memory[max(half + 1, len(memory) - 3):])
     frames = statistics.median(report["gpu_ms"] for report in reports)
     print(f"{len(reports)} loads, {reports[-1]['frames']} frames in "
           f"{(time.monotonic() - began) / 60:.1f} minutes, frames of {frames:.2f} ms")
