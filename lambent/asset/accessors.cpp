@@ -53,6 +53,12 @@ std::optional<scene_io::AccessorView> AccessorReader::open(JsonFields& fields, s
     fields.complain(key, "accessors overlap: together they are larger than the file's buffers");
     return std::nullopt;
   }
+  if (Status fits =
+          file_.budget().hold(view->count * bytesEach, "accessor " + std::to_string(index));
+      !fits) {
+    fields.complain(key, fits.error().message);
+    return std::nullopt;
+  }
   return *view;
 }
 

@@ -26,8 +26,9 @@ std::span<const std::byte> bytesOf(const std::vector<T>& values) {
   return std::as_bytes(std::span(values));
 }
 
-/// Accessors of transfer, copied out. Keeps the sum of what was copied below the file's buffers:
-/// accessors that overlap could otherwise ask for any amount of memory.
+/// Accessors of transfer, copied out. Keeps the sum of what was copied below the file's buffers, and
+/// in the file's budget: accessors that overlap, or buffers of the same bytes, could otherwise ask
+/// for any amount of memory.
 class AccessorReader {
  public:
   explicit AccessorReader(const scene_io::GltfFile& file);

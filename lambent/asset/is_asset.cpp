@@ -7,10 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "lambent/asset/asset.h"
 #include "lambent/asset/format.h"
+#include "lambent/asset/read.h"
 #include "lambent/file/failure.h"
 #include "lambent/file/json.h"
+#include "lambent/scene_io/linked_files.h"
 
 namespace lambent::asset {
 
@@ -37,9 +38,8 @@ std::uint32_t littleEndian(const unsigned char* bytes) {
   return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | std::uint32_t(bytes[3]) << 24;
 }
 
-}  // namespace
-
-Result<bool> isAsset(const std::filesystem::path& path) {
+/// The text of a .glb's or .gltf's JSON; empty if it is neither.
+Result<std::string> jsonText(const std::filesystem::path& path) {
   errno = 0;
   const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) return file::cannot("read", path, errno);
@@ -49,20 +49,35 @@ Result<bool> isAsset(const std::filesystem::path& path) {
 
   std::string text;
   if (got == head.size() && std::memcmp(head.data(), "glTF", 4) == 0) {
-    if (std::memcmp(head.data() + 16, "JSON", 4) != 0) return false;
-    text = readUpTo(file.get(), littleEndian(head.data() + 12));
+    if (std::memcmp(head.data() + 16, "JSON", 4) == 0)
+      text = readUpTo(file.get(), littleEndian(head.data() + 12));
   } else if (path.extension() == ".gltf") {
     std::rewind(file.get());
     text = readUpTo(file.get(), std::size_t(1) << 32);
-  } else {
-    return false;
   }
-  if (text.find(kExtensionName) == std::string::npos) return false;  // cheaper than to parse
-  const Result<nlohmann::json> document = file::parseJson(text);
+  return text;
+}
+
+}  // namespace
+
+Result<bool> isAsset(const std::filesystem::path& path) {
+  const Result<std::string> text = jsonText(path);
+  if (!text) return text.error();
+  if (text->find(kExtensionName) == std::string::npos) return false;  // cheaper than to parse
+  const Result<nlohmann::json> document = file::parseJson(*text);
   if (!document || !document->is_object()) return false;
   const auto extensions = document->find("extensions");
   return extensions != document->end() && extensions->is_object() &&
          extensions->contains(kExtensionName);
+}
+
+Result<std::vector<std::filesystem::path>> linkedFiles(const std::filesystem::path& path) {
+  const Result<std::string> text = jsonText(path);
+  if (!text) return text.error();
+  const Result<nlohmann::json> document = file::parseJson(*text);
+  scene_io::LinkedFiles files(path, {});
+  if (document) files.noteGltf(*document);
+  return files.noted();
 }
 
 }  // namespace lambent::asset

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "lambent/asset/asset.h"
 #include "lambent/asset/bi_scale_part.h"
 #include "lambent/asset/check.h"
 #include "lambent/asset/check_gltf.h"
 #include "lambent/asset/format.h"
+#include "lambent/asset/read.h"
 #include "lambent/asset/receivers_part.h"
 #include "lambent/asset/rtt_part.h"
 #include "lambent/asset/surface_part.h"
@@ -87,9 +87,10 @@ EncodedMesh meshFrom(JsonFields object, AccessorReader& accessors, const scene::
 
 }  // namespace
 
-Result<Asset> read(const std::filesystem::path& path) {
+Result<Asset> read(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
-  Result<GltfFile> file = GltfFile::open(path);
+  Result<GltfFile> file = GltfFile::open(
+      path, {.allowOutside = options.allowOutside, .memoryLimit = options.memoryLimit});
   if (!file) {
     const std::filesystem::path kind = path.extension();
     std::error_code ignored;
@@ -145,6 +146,10 @@ Result<Asset> read(const std::filesystem::path& path) {
     asset.transfer.meshes.push_back(std::move(transfer));
   }
   return asset;
+}
+
+Result<Asset> read(const std::filesystem::path& path) {
+  return read(path, ReadOptions());
 }
 
 }  // namespace lambent::asset

@@ -13,6 +13,7 @@
 #include "lambent/asset/json_fields.h"
 #include "lambent/asset/rtt_part.h"
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/budget.h"
 #include "lambent/file/json.h"
 #include "lambent/transfer/names.h"
 
@@ -83,7 +84,7 @@ Status writeRtt(const EncodedRtt& rtt, const std::filesystem::path& path) {
   return file::writeAtomically(path, std::span<const std::byte>(bytes));
 }
 
-Result<EncodedRtt> readRtt(const std::filesystem::path& path) {
+Result<EncodedRtt> readRtt(const std::filesystem::path& path, const ReadOptions& options) {
   const auto bad = [&](const std::string& what) {
     return report::badInput(path.string() + ": " + what);
   };
@@ -125,6 +126,9 @@ Result<EncodedRtt> readRtt(const std::filesystem::path& path) {
   if (rest.size() != needed)
     return bad((rest.size() < needed ? "cut off: " : "too long: ") + std::to_string(rest.size()) +
                " bytes of numbers where " + std::to_string(needed) + " are needed");
+  file::Budget budget(options.memoryLimit);
+  budget.addFile(file->size());
+  if (Status fits = budget.hold(needed, path.string()); !fits) return fits.error();
   rest = take(rest, rtt.values.scales, scales);
   switch (*encoding) {
     case Encoding::Snorm8:

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "lambent/asset/read.h"
 #include "lambent/report/result.h"
 #include "lambent/transfer/field.h"
 
@@ -13,7 +14,8 @@ namespace lambent::asset {
 Status writeRtt(const transfer::EncodedRtt& rtt, const std::filesystem::path& path);
 /// BadInput names the file and what is wrong in it: another kind of file, a newer version, a size
 /// that does not fit, a number that is not finite.
-Result<transfer::EncodedRtt> readRtt(const std::filesystem::path& path);
+Result<transfer::EncodedRtt> readRtt(const std::filesystem::path& path,
+                                     const ReadOptions& options = {});
 /// Whether a file begins as an .rtt does.
 bool isRtt(const std::filesystem::path& path);
 

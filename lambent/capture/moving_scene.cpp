@@ -65,11 +65,14 @@ scene::Box bounds(const MovingScene& scene, double time) {
   return result;
 }
 
-Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path) {
-  Result<scene_io::LoadedScene> loaded = scene_io::load(path);
+Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path,
+                                          const MovingSceneOptions& options) {
+  Result<scene_io::LoadedScene> loaded = scene_io::load(
+      path, {.allowOutside = options.allowOutside, .memoryLimit = options.memoryLimit});
   if (!loaded) return loaded.error();
   LoadedMovingScene result;
   result.findings = std::move(loaded->findings);
+  result.linkedFiles = std::move(loaded->linkedFiles);
   std::uint64_t lamps = 0;
   for (scene::Mesh& mesh : loaded->scene.meshes) {
     const scene::Material& material = loaded->scene.materials[std::size_t(mesh.material)];

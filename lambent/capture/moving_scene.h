@@ -1,7 +1,9 @@
 // What is around an object and moves: lamps and occluders, as plain values.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,11 +64,19 @@ scene::Box bounds(const MovingScene& scene, double time);
 struct LoadedMovingScene {
   MovingScene scene;
   Findings findings;
+  std::vector<std::filesystem::path> linkedFiles = {};  ///< as of scene_io::LoadedScene
+};
+
+/// As of scene_io::LoadOptions.
+struct MovingSceneOptions {
+  bool allowOutside = false;
+  std::optional<std::uint64_t> memoryLimit = {};  ///< bytes
 };
 
 /// Every mesh of a file (glTF: emissiveFactor × KHR_materials_emissive_strength is a material's
 /// radiance) as a body that stands where it stands in the file. What does not emit is a black
 /// occluder. Files carry no motions: animations are not read. Errors as scene_io::load's.
-Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path);
+Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path,
+                                          const MovingSceneOptions& options = {});
 
 }  // namespace lambent::capture

@@ -15,9 +15,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <set>
+#include <system_error>
 
 #include <Eigen/LU>
 
+#include "lambent/file/budget.h"
 #include "lambent/image/io.h"
 #include "lambent/meso/build_rtt.h"
 #include "lambent/meso/light_grid.h"
@@ -126,6 +129,21 @@ Status check(const AcquiredOptions& options) {
   return Status::ok();
 }
 
+/// What all pictures cost together.
+struct Account {
+  file::Budget budget;
+  std::set<std::filesystem::path> counted;
+};
+
+/// A table can name one small file in every line: it counts once, and its pixels each time.
+Status charge(const image::Image& picture, const std::filesystem::path& path, Account& account) {
+  std::error_code error;
+  const std::filesystem::path place = std::filesystem::weakly_canonical(path, error);
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (!error && account.counted.insert(place).second) account.budget.addFile(bytes);
+  return account.budget.work(picture.pixels.size() * sizeof(Rgb), path.string());
+}
+
 Status checkSamples(const std::vector<BtfSample>& samples, const std::filesystem::path& table) {
   if (samples.size() < kFewest)
     return report::badInput(table.string() + ": " + std::to_string(samples.size()) +
@@ -216,12 +234,16 @@ Result<WithFindings<transfer::SimulatedRtt>> acquireRtt(const std::filesystem::p
   using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   RowMajor pictures(static_cast<Eigen::Index>(samples.size()), rowLength);
   int width = 0, height = 0;
+  Account account{file::Budget(options.memoryLimit), {}};
   for (std::size_t s = 0; s < samples.size(); ++s) {
     if (progress && !progress({"pictures", s, samples.size(), "pictures"}))
       return report::cancelled();
     const std::string where = table->string() + ", line " + std::to_string(samples[s].line) + ": ";
-    const Result<image::Image> picture = image::read(samples[s].file);
+    const Result<image::Image> picture =
+        image::read(samples[s].file, {.memoryLimit = options.memoryLimit});
     if (!picture) return report::badInput(where + picture.error().message);
+    if (Status fits = charge(*picture, samples[s].file, account); !fits)
+      return report::badInput(where + fits.error().message);
     if (s == 0) {
       width = picture->width, height = picture->height;
       warnOfSeam(*picture, samples[s].file, findings);

@@ -1,8 +1,10 @@
 // RTTs from measured patches: a bidirectional texture function (BTF) as pictures → RTT.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +46,9 @@ struct AcquiredOptions {
   /// The number that a white diffuse surface facing the light has in the pictures (after sRGB
   /// decoding, for PNG): pictures hold π/white times the radiance under unit irradiance.
   float white = 1.0f;
+  /// Bytes that reading the pictures may take, one at a time; nothing: as much as pictures of their
+  /// size may need (see file/budget.h).
+  std::optional<std::uint64_t> memoryLimit = {};
   int threads = 0;  ///< 0: as many as the machine has. No effect on the result
 };
 

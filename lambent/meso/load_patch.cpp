@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/budget.h"
 #include "lambent/file/extension.h"
 #include "lambent/image/decode.h"
 #include "lambent/image/io.h"
@@ -33,9 +34,9 @@ void turn(scene::Scene& scene, const Turn& rotated) {
   }
 }
 
-Result<WithFindings<Patch>> loadMesh(const std::filesystem::path& path,
-                                     const PatchFileOptions& options) {
-  Result<scene_io::LoadedScene> loaded = scene_io::load(path);
+Result<LoadedPatch> loadMesh(const std::filesystem::path& path, const PatchFileOptions& options) {
+  Result<scene_io::LoadedScene> loaded = scene_io::load(
+      path, {.allowOutside = options.allowOutside, .memoryLimit = options.memoryLimit});
   if (!loaded) return loaded.error();
   Findings findings = std::move(loaded->findings);
   Patch patch;
@@ -53,12 +54,13 @@ Result<WithFindings<Patch>> loadMesh(const std::filesystem::path& path,
   patch.backing = options.backing;
   const Findings seams = checkTiling(patch);
   findings.insert(findings.end(), seams.begin(), seams.end());
-  return WithFindings<Patch>{std::move(patch), std::move(findings)};
+  return LoadedPatch{{std::move(patch), std::move(findings)}, std::move(loaded->linkedFiles)};
 }
 
 /// Rows from the top in the picture, from y = 0 in the field.
-Result<HeightField> readHeights(const std::filesystem::path& path, bool codeValues) {
-  const Result<image::Image> picture = image::read(path);
+Result<HeightField> readHeights(const std::filesystem::path& path, bool codeValues,
+                                const PatchFileOptions& options) {
+  const Result<image::Image> picture = image::read(path, {.memoryLimit = options.memoryLimit});
   if (!picture) return picture.error();
   if (picture->width < 2 || picture->height < 2)
     return report::badInput(path.string() + ": a height field needs 2×2 samples at least");
@@ -97,10 +99,13 @@ HeightField reduced(const HeightField& field, int factor) {
   return out;
 }
 
-Result<scene::Texture> readColor(const std::filesystem::path& path) {
+Result<scene::Texture> readColor(const PatchFileOptions& options) {
+  const std::filesystem::path& path = options.color;
   Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
-  Result<image::Pixels8> pixels = image::decode8(*bytes, path.string());
+  file::Budget budget(options.memoryLimit);
+  budget.addFile(bytes->size());
+  Result<image::Pixels8> pixels = image::decode8(*bytes, path.string(), budget);
   if (!pixels) return pixels.error();
   scene::Texture texture;
   texture.name = path.stem().string();
@@ -109,11 +114,11 @@ Result<scene::Texture> readColor(const std::filesystem::path& path) {
   return texture;
 }
 
-Result<WithFindings<Patch>> loadHeights(const std::filesystem::path& path,
-                                        const PatchFileOptions& options) {
+Result<LoadedPatch> loadHeights(const std::filesystem::path& path,
+                                const PatchFileOptions& options) {
   Findings findings;
   const bool isPng = file::extensionOf(path) == ".png";
-  Result<HeightField> read = readHeights(path, isPng);
+  Result<HeightField> read = readHeights(path, isPng, options);
   if (!read) return read.error();
   HeightField field = std::move(*read);
   const int longest = std::max(field.width, field.height);
@@ -145,7 +150,7 @@ Result<WithFindings<Patch>> loadHeights(const std::filesystem::path& path,
   material.diffuse = options.albedo;
   std::optional<scene::Texture> texture;
   if (!options.color.empty()) {
-    Result<scene::Texture> color = readColor(options.color);
+    Result<scene::Texture> color = readColor(options);
     if (!color) return color.error();
     texture = std::move(*color);
     material.diffuse = Rgb::Ones();
@@ -168,13 +173,12 @@ Result<WithFindings<Patch>> loadHeights(const std::filesystem::path& path,
   if (texture) material.baseColorTexture = 0;
   Patch patch = patchOf(field, size, material, path.stem().string());
   if (texture) patch.scene.textures.push_back(std::move(*texture));
-  return WithFindings<Patch>{std::move(patch), std::move(findings)};
+  return LoadedPatch{{std::move(patch), std::move(findings)}, {}};
 }
 
 }  // namespace
 
-Result<WithFindings<Patch>> loadPatch(const std::filesystem::path& path,
-                                      const PatchFileOptions& options) {
+Result<LoadedPatch> loadPatch(const std::filesystem::path& path, const PatchFileOptions& options) {
   if (!(options.blend >= 0.0f && options.blend <= 0.5f))
     return report::badUsage("blending reaches over 0 to 0.5 of the period");
   const std::string extension = file::extensionOf(path);

@@ -1,8 +1,10 @@
 // Files → Patch: pictures of heights, meshes.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "lambent/meso/patch.h"
 #include "lambent/report/finding.h"
@@ -28,13 +30,21 @@ struct PatchFileOptions {
   int maximumSamples = 512;  ///< a side; larger height fields are averaged down (with a note)
   UpAxis up = UpAxis::Y;     ///< of a mesh file
   Rgb backing = Rgb::Constant(0.05f);  ///< under a mesh: it may be open below
+  bool allowOutside = false;           ///< of a mesh: as of scene_io::LoadOptions
+  /// Bytes that reading may take; nothing: as much as files of that size may need (see
+  /// file/budget.h).
+  std::optional<std::uint64_t> memoryLimit = {};
+};
+
+struct LoadedPatch : WithFindings<Patch> {
+  /// The files that a mesh names, as of scene_io::LoadedScene.
+  std::vector<std::filesystem::path> linkedFiles;
 };
 
 /// By extension: .png and .exr are height fields (PNG: code values, 8 or 16 bits, of the mean of
 /// its channels; EXR: the mean of R, G and B), top row at the far side (+y); .glb .gltf .obj .ply
 /// are meshes. Seams are reported (see checkTiling). BadInput names the file and the remedy.
-Result<WithFindings<Patch>> loadPatch(const std::filesystem::path& path,
-                                      const PatchFileOptions& options);
+Result<LoadedPatch> loadPatch(const std::filesystem::path& path, const PatchFileOptions& options);
 
 /// Writes a patch's geometry, with its backing, as a .glb that lies on the ground (+Y up): what
 /// loadPatch reads by default.

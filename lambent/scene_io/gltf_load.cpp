@@ -15,6 +15,7 @@
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_materials.h"
 #include "lambent/scene_io/gltf_read.h"
+#include "lambent/scene_io/mesh_bytes.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -29,12 +30,6 @@ constexpr std::size_t kMaxTriangles = std::size_t(1) << 28;
 /// What looking for unused vertices, making normals and the like goes through for each vertex. A
 /// small file may show a few vertices each of one large accessor many times over.
 constexpr std::uint64_t kWorkPerVertex = 128;
-
-std::uint64_t bytesOf(const Mesh& mesh) {
-  return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
-         mesh.uvs.size() * sizeof(Vec2) + mesh.colors.size() * sizeof(Rgb) +
-         mesh.triangles.size() * sizeof(scene::Triangle);
-}
 
 std::optional<Mat4d> localTransform(const json& node) {
   Mat4d m = Mat4d::Identity();
@@ -394,6 +389,8 @@ Result<LoadedGltf> Loader::load() {
     return bad("holds no triangles; Lambent needs a surface to bake");
   }
   result_.loaded.findings = diagnosis_.findings();
+  file_.linkedFiles().noteGltf(document_);
+  result_.loaded.linkedFiles = file_.linkedFiles().noted();
   return std::move(result_);
 }
 

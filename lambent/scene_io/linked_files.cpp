@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/scene_io/gltf_json.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -30,6 +31,13 @@ std::string percentDecoded(std::string_view text) {
     out.push_back(text[i]);
   }
   return out;
+}
+
+/// Links and ".." followed as far as there are files, from the root on.
+std::filesystem::path resolved(const std::filesystem::path& path, std::error_code& error) {
+  // What is relative and not there would stay relative.
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  return error ? whole : std::filesystem::weakly_canonical(whole, error);
 }
 
 }  // namespace
@@ -81,9 +89,9 @@ bool LinkedFiles::mayRead(const std::filesystem::path& path) const {
   std::error_code error;
   std::filesystem::path folder = scene_.parent_path();
   if (folder.empty()) folder = ".";
-  folder = std::filesystem::weakly_canonical(folder, error);
+  folder = resolved(folder, error);
   if (error) return false;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
+  const std::filesystem::path target = resolved(path, error);
   if (error) return false;
   return std::mismatch(folder.begin(), folder.end(), target.begin(), target.end()).first ==
          folder.end();
@@ -98,13 +106,25 @@ Error LinkedFiles::outside(const std::string& what, const std::string& name) con
 std::filesystem::path LinkedFiles::placeOf(const std::string& uri) const {
   std::error_code error;
   const std::filesystem::path path = scene_.parent_path() / percentDecoded(uri);
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
-  return error ? path : canonical;
+  const std::filesystem::path whole = resolved(path, error);
+  return error ? path : whole;
 }
 
 bool LinkedFiles::mayReadUri(const std::string& uri) const {
   if (isDataUri(uri) || uri.find("://") != std::string::npos) return true;
   return mayRead(scene_.parent_path() / percentDecoded(uri));
+}
+
+void LinkedFiles::noteGltf(const nlohmann::json& document) {
+  for (const char* kind : {"buffers", "images"}) {
+    const nlohmann::json* all = find(document, kind);
+    for (std::size_t i = 0; i < arraySize(all); ++i) {
+      const std::string uri = text(&(*all)[i], "uri");
+      if (!uri.empty() && !isDataUri(uri) && uri.find("://") == std::string::npos) {
+        note(scene_.parent_path() / percentDecoded(uri));
+      }
+    }
+  }
 }
 
 Result<std::vector<std::byte>> LinkedFiles::read(const std::filesystem::path& path) {

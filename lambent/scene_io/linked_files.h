@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,6 +48,11 @@ class LinkedFiles {
   std::filesystem::path placeOf(const std::string& uri) const;
   /// Whether mayRead() is true of the place of a URI, or it is none.
   bool mayReadUri(const std::string& uri) const;
+  /// Remembers that the scene names a file, or all that the buffers and images of a glTF document
+  /// name.
+  void note(const std::filesystem::path& path) { noted_.insert(path); }
+  void noteGltf(const nlohmann::json& document);
+  std::vector<std::filesystem::path> noted() const { return {noted_.begin(), noted_.end()}; }
   /// A whole file, its size in the budget.
   Result<std::vector<std::byte>> read(const std::filesystem::path& path);
 
@@ -53,6 +60,7 @@ class LinkedFiles {
   std::filesystem::path scene_;
   LoadOptions options_;
   file::Budget budget_;
+  std::set<std::filesystem::path> noted_;
 };
 
 }  // namespace lambent::scene_io

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "lambent/report/finding.h"
 #include "lambent/report/result.h"
@@ -14,6 +15,9 @@ namespace lambent::scene_io {
 struct LoadedScene {
   scene::Scene scene;
   Findings findings;  ///< degenerate triangles kept out, normals made, flipped normals, …
+  /// The files that this one names, read or not, there or not: buffers, pictures, material
+  /// libraries.
+  std::vector<std::filesystem::path> linkedFiles = {};
 };
 
 struct LoadOptions {

@@ -102,6 +102,7 @@ Result<int> readTextureFile(const std::filesystem::path& path, scene::Scene& sce
                   "base-colour textures could not be read; the colour stands alone", why);
     return -1;
   };
+  files.note(path);
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     return missing(path.string() + " does not exist");
@@ -122,6 +123,7 @@ Status readMtl(const std::filesystem::path& path, scene::Scene& scene,
                std::map<std::string, int, std::less<>>& known,
                std::set<std::filesystem::path>& libraries, LinkedFiles& files,
                Diagnosis& diagnosis) {
+  files.note(path);
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     diagnosis.add(Severity::Warning, "material-file-missing", 1,
@@ -162,6 +164,9 @@ Status readMtl(const std::filesystem::path& path, scene::Scene& scene,
       entry.illumination = value >= 0.0f && value <= 10.0f ? int(value) : 2;
     } else if (key == "map_Kd") {
       entry.diffuseMap = mapName(cursor);
+    } else if (key.starts_with("map_") || key == "bump" || key == "norm" || key == "disp" ||
+               key == "decal" || key == "refl") {
+      files.note(path.parent_path() / mapName(cursor));  // of no use to us, but the person's
     } else if (key == "d") {
       entry.transparent = cursor.number().value_or(1.0f) < 0.999f;
     }

@@ -9,6 +9,7 @@
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/linked_files.h"
+#include "lambent/scene_io/mesh_bytes.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/polygon.h"
 #include "lambent/scene_io/text_cursor.h"
@@ -316,14 +317,18 @@ Result<LoadedScene> ObjReader::read() {
     if (Status status = finishMesh(*mesh, finish, name_, place, diagnosis_); !status) {
       return status.error();
     }
-    if (!mesh->triangles.empty()) scene_.meshes.push_back(std::move(*mesh));
+    if (mesh->triangles.empty()) continue;
+    if (Status fits = files_.budget().hold(bytesOf(*mesh), name_ + ": " + place); !fits) {
+      return fits.error();
+    }
+    scene_.meshes.push_back(std::move(*mesh));
   }
   if (scene_.meshes.empty()) {
     return report::badInput(name_ + ": holds no triangles" +
                             (positions_.empty() ? "; it may not be an OBJ file"
                                                 : ", only vertices; export it with its faces"));
   }
-  return LoadedScene{std::move(scene_), diagnosis_.findings()};
+  return LoadedScene{std::move(scene_), diagnosis_.findings(), files_.noted()};
 }
 
 }  // namespace

@@ -340,13 +340,15 @@ Result<LoadedScene> PlyReader::read() {
                  element.name + ", but only " + std::to_string(body_.left()) +
                  " bytes follow: the file is truncated or damaged");
     }
-    Status status = Status::ok();
-    if (element.name == "vertex") {
+    const std::string what = name_ + ": element " + element.name;
+    Status status = files_.budget().hold(element.count * element.sizeInMemory(), what);
+    if (!status) return status.error();
+    if (element.isVertices()) {
       if (hasVertices) return bad("its header has two elements vertex");
       if (element.count > 0xfffffffeu) return bad("it has more vertices than 32 bits can number");
       hasVertices = true;
       status = readVertices(element);
-    } else if (element.name == "face" || element.name == "tristrips") {
+    } else if (element.isFaces()) {
       if (!hasVertices) return bad("its faces come before its vertices, which is not read");
       status = readFaces(element);
     } else {
@@ -371,9 +373,10 @@ Result<LoadedScene> PlyReader::read() {
 
   LoadedScene loaded;
   scene::Material material;
+  const std::filesystem::path picture = path_.parent_path() / header_.textureFile;
+  if (!header_.textureFile.empty()) files_.note(picture);
   if (!header_.textureFile.empty() && !mesh_.uvs.empty()) {
-    const Result<int> texture = readTextureFile(path_.parent_path() / header_.textureFile,
-                                                loaded.scene, files_, diagnosis_);
+    const Result<int> texture = readTextureFile(picture, loaded.scene, files_, diagnosis_);
     if (!texture) return texture.error();
     material.baseColorTexture = *texture;
   }
@@ -381,6 +384,7 @@ Result<LoadedScene> PlyReader::read() {
   loaded.scene.materials.push_back(std::move(material));
   loaded.scene.meshes.push_back(std::move(mesh_));
   loaded.findings = diagnosis_.findings();
+  loaded.linkedFiles = files_.noted();
   return loaded;
 }
 

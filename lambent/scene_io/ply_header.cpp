@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "lambent/scene/scene.h"
 #include "lambent/scene_io/text_cursor.h"
 
 namespace lambent::scene_io {
@@ -44,6 +45,11 @@ std::size_t PlyElement::leastSize(bool ascii) const {
     size += ascii ? 2 : sizeOf(property.isList ? property.countType : property.type);
   }
   return size;
+}
+
+std::size_t PlyElement::sizeInMemory() const {
+  if (isVertices()) return sizeof(float) * properties.size();
+  return isFaces() ? sizeof(scene::Triangle) : 0;
 }
 
 Result<PlyHeader> readPlyHeader(std::string_view text, const std::string& file) {

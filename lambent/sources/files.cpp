@@ -70,7 +70,7 @@ std::string remedyForShape(int width, int height) {
 
 Result<Light> readMap(const std::filesystem::path& path, image::MapKind kind,
                       const SourceOptions& options) {
-  Result<image::Image> image = image::read(path);
+  Result<image::Image> image = image::read(path, {.memoryLimit = options.memoryLimit});
   if (!image) return image.error();
   if (kind == image::MapKind::LatLong && image->width != 2 * image->height)
     return badInput(fmt::format(

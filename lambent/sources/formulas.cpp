@@ -38,6 +38,10 @@ Result<Aimed> parseAimed(std::string_view term, std::string_view arguments, bool
       return usage(term, fmt::format("{} '{}' is not a number", names[i], parts[i]), example);
     values[i] = *value;
   }
+  // Beyond, a float does not tell directions apart.
+  if (std::abs(values[0]) > 1e6)
+    return usage(term, fmt::format("azimuth {} is not within -1e6 to 1e6 degrees", parts[0]),
+                 example);
   if (std::abs(values[1]) > 90)
     return usage(term, fmt::format("elevation {} is not within -90 to 90 degrees", parts[1]),
                  example);

@@ -2,6 +2,7 @@
 // table: its word, how it is written, and the function that makes it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,9 @@ struct SourceOptions {
   /// image::makeRadiance does, with a finding ("light-pixels-repaired").
   enum class NotFinite { Refuse, Repair };
   NotFinite notFinite = NotFinite::Refuse;
+  /// Bytes that reading a file may take; nothing: as much as one of its size may need (see
+  /// file/budget.h).
+  std::optional<std::uint64_t> memoryLimit = {};
 };
 
 /// FILE.exr|.hdr|.png (lat-long, 2:1) | cube:FILE | angular:FILE | ball:FILE (see image::MapKind) |
