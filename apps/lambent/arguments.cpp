@@ -5,38 +5,36 @@
 #include <charconv>
 #include <cmath>
 
-#include "lambent/file/atomic_file.h"
 #include "lambent/file/extension.h"
 
 namespace lambent::tool {
 
 namespace {
 
-Result<std::vector<double>> parseList(std::string_view text) {
+/// Numbers with commas between them.
+Result<std::vector<double>> parseList(std::string_view text, const NumberRange& range) {
   std::vector<double> values;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
-    const Result<double> value = parseNumber(text.substr(at, end - at));
-    if (!value) return value.error();
+    const Result<double> value = parseNumber(text.substr(at, end - at), range);
+    if (!value) return badUsage(fmt::format("'{}': {}", text, value.error().message));
     values.push_back(*value);
     at = end + 1;
   }
   return values;
 }
 
-}  // namespace
-
-Result<double> parseNumber(std::string_view text) {
-  double value = 0.0;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value))
-    return badUsage(fmt::format("'{}' is not a number", text));
-  return value;
+Result<Vec3d> parseTriple(std::string_view text) {
+  const auto values = parseList(text, kCoordinates);
+  if (!values) return values.error();
+  if (values->size() != 3)
+    return badUsage(fmt::format("'{}' is not X,Y,Z: write three numbers, as in 0,1.5,4", text));
+  return Vec3d((*values)[0], (*values)[1], (*values)[2]);
 }
 
-Result<Size> parseSize(std::string_view text) {
+}  // namespace
+
+Result<Size> parseSize(std::string_view text, int most) {
   const auto parseSide = [](std::string_view side) {
     int value = 0;
     const auto [rest, error] = std::from_chars(side.data(), side.data() + side.size(), value);
@@ -45,23 +43,31 @@ Result<Size> parseSize(std::string_view text) {
   const std::size_t cross = text.find_first_of("xX");
   const int width = parseSide(text.substr(0, cross));
   const int height = cross == text.npos ? width : parseSide(text.substr(cross + 1));
-  if (width < 1 || height < 1 || width > 32768 || height > 32768)
+  if (width < 1 || height < 1 || width > most || height > most)
     return badUsage(fmt::format(
-        "'{}' is not a size: write WIDTHxHEIGHT, each from 1 to 32768, as in 1024x768", text));
+        "'{}' is not a size: write WIDTHxHEIGHT, each from 1 to {}, as in 64x48", text, most));
   return Size{width, height};
 }
 
-Result<Vec3> parseTriple(std::string_view text) {
-  const auto values = parseList(text);
-  if (!values) return values.error();
-  if (values->size() != 3)
-    return badUsage(fmt::format("'{}' is not X,Y,Z: write three numbers, as in 0,1.5,4", text));
-  return Vec3(float((*values)[0]), float((*values)[1]), float((*values)[2]));
+Result<Vec3> parsePoint(std::string_view text) {
+  const Result<Vec3d> point = parseTriple(text);
+  if (!point) return point.error();
+  return Vec3(point->cast<float>());
 }
 
-Result<Rgb> parseRgb(std::string_view text) {
-  const auto values = parseList(text);
-  if (!values) return values.error();
+Result<Vec3> parseDirection(std::string_view text) {
+  const Result<Vec3d> direction = parseTriple(text);
+  if (!direction) return direction.error();
+  const double length = direction->stableNorm();
+  if (!(length > 0.0))
+    return badUsage(fmt::format("'{}' is no direction: one of the numbers must not be 0", text));
+  return Vec3((*direction / length).cast<float>());
+}
+
+Result<Rgb> parseReflectance(std::string_view text) {
+  const auto values = parseList(text, kReflectances);
+  if (!values)
+    return badUsage(values.error().message + ". A surface cannot send out more light than it gets");
   if (values->size() == 1) return Rgb(Rgb::Constant(float(values->front())));
   if (values->size() != 3)
     return badUsage(fmt::format("'{}' is not a colour: write one number or R,G,B", text));
@@ -74,20 +80,6 @@ std::string formatSize(const Size& size) {
 
 std::string extensionOf(const std::filesystem::path& path) {
   return file::extensionOf(path);
-}
-
-Status checkOutput(const std::filesystem::path& path,
-                   std::initializer_list<std::string_view> extensions,
-                   const std::filesystem::path& input) {
-  const std::string extension = extensionOf(path);
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-    return badUsage(
-        fmt::format("the output {} must end in {}", path.string(), fmt::join(extensions, " or ")));
-  std::error_code ignored;
-  if (std::filesystem::equivalent(path, input, ignored))
-    return badUsage(
-        fmt::format("the output {} would replace the input: give it another name", path.string()));
-  return written(file::checkWritable(path));
 }
 
 Status written(Status status) {

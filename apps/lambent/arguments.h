@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/lambent/numbers.h"
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
 
@@ -20,20 +21,27 @@ struct Size {
   int width = 0, height = 0;
 };
 
-Result<double> parseNumber(std::string_view text);  ///< finite
-Result<Size> parseSize(std::string_view text);      ///< "1024x768", or "512" for a square
-Result<Vec3> parseTriple(std::string_view text);    ///< "1,2,3"
-Result<Rgb> parseRgb(std::string_view text);        ///< "0.2,0.5,0.9", or "0.5" for grey
+/// "1024x768", or "512" for a square; each side from 1 to `most`.
+Result<Size> parseSize(std::string_view text, int most);
+/// The same to hand to addParsed.
+inline auto sizesUpTo(int most) {
+  return [most](std::string_view text) { return parseSize(text, most); };
+}
+Result<Vec3> parsePoint(std::string_view text);      ///< "1,2,3", each of kCoordinates
+Result<Vec3> parseDirection(std::string_view text);  ///< the same, not 0,0,0; of length 1
+/// "0.2,0.5,0.9", or "0.5" for grey: what a surface sends back of the light that it gets.
+Result<Rgb> parseReflectance(std::string_view text);
 std::string formatSize(const Size& size);
 
-/// An option whose text goes through `parse` into `value`; what does not parse is wrong usage.
-template <class T, class V>
-CLI::Option* addParsed(CLI::App& app, const std::string& name, V& value,
-                       Result<T> (*parse)(std::string_view), const std::string& description) {
+/// An option whose text goes through `parse` (text → Result) into `value`; what does not parse is
+/// wrong usage.
+template <class V, class Parse>
+CLI::Option* addParsed(CLI::App& app, const std::string& name, V& value, Parse parse,
+                       const std::string& description) {
   return app.add_option_function<std::string>(
       name,
       [&value, parse, name](const std::string& text) {
-        Result<T> parsed = parse(text);
+        auto parsed = parse(std::string_view(text));
         if (!parsed) throw CLI::ValidationError(name, parsed.error().message);
         value = *parsed;
       },
@@ -70,11 +78,6 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
   return option->check(CLI::IsMember(words))->default_str(wordOf(value, choices));
 }
 
-/// Whether a file can appear at `path`, with one of `extensions`, without replacing `input`: asked
-/// before long work.
-Status checkOutput(const std::filesystem::path& path,
-                   std::initializer_list<std::string_view> extensions,
-                   const std::filesystem::path& input);
 /// The error of writing an output file: a full disk or a forbidden folder is a matter of what the
 /// person gave, as an unusable input is.
 Status written(Status status);

@@ -8,6 +8,7 @@
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
+#include "apps/lambent/named_files.h"
 #include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
@@ -20,6 +21,8 @@
 namespace lambent::tool {
 
 namespace {
+
+constexpr int kMostTexels = 16384;  // a side
 
 struct BakeArguments {
   SceneArguments scene;
@@ -51,7 +54,7 @@ Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::s
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     const Result<Size> size =
-        parseSize(std::string_view(text).substr(equals == text.npos ? 0 : equals + 1));
+        parseSize(std::string_view(text).substr(equals == text.npos ? 0 : equals + 1), kMostTexels);
     if (!size) return size.error();
     const std::string wanted = equals == text.npos ? std::string() : text.substr(0, equals);
     std::size_t found = 0;
@@ -77,10 +80,12 @@ Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::s
 }
 
 Status runBake(BakeArguments arguments, Console& console) {
-  Status writable = checkOutput(arguments.output, {".glb"}, arguments.scene.path);
-  if (!writable) return writable;
+  NamedFiles files;
+  files.writes("--output", arguments.output, {".glb"});
+  files.reads("SCENE", arguments.scene.path);
+  if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
-  auto scene = arguments.scene.load(console);
+  auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
 
   const macro::BakeOptions options = arguments.transfer.chosen(console);
@@ -131,7 +136,7 @@ Status runBake(BakeArguments arguments, Console& console) {
     if (const transfer::Receivers* held = transfer::receiversOf(mesh)) stored += held->size();
   Description transfer = describe(asset);
   const double rate = raySeconds > 0.0 ? double(rayCount) / raySeconds : 0.0;
-  console.finish(
+  return console.finish(
       {{"output", arguments.output.string()},
        {"bytes", bytes},
        {"receivers", stored},
@@ -142,7 +147,6 @@ Status runBake(BakeArguments arguments, Console& console) {
       fmt::format("{}: {}\n{}{} receivers, {} rays at {}, {} in all\n{}", arguments.output.string(),
                   formatBytes(double(bytes)), transfer.text, formatCount(stored),
                   formatCount(rayCount), formatRate(rate, "rays"), formatSeconds(seconds), times));
-  return Status::ok();
 }
 
 }  // namespace
@@ -159,16 +163,14 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       ->option_text("ASSET.glb")
       ->required();
   arguments->transfer.addTo(*app);
-  app->add_option("--bands", options.bands,
-                  "Bands of the light that will relight it, 1 to 10: 3 for overcast skies, 5 for "
-                  "soft shadows, more for smaller lights")
-      ->check(CLI::Range(1, 10))
+  addNumber(*app, "--bands", options.bands, {1, 10},
+            "Bands of the light that will relight it, 1 to 10: 3 for overcast skies, 5 for "
+            "soft shadows, more for smaller lights")
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");
-  app->add_option("--glossy-bands", options.glossyBands,
-                  "Rows of glossy matrices in bands, 1 to 10; 0: as --bands")
-      ->check(CLI::Range(0, 10))
+  addNumber(*app, "--glossy-bands", options.glossyBands, {0, 10},
+            "Rows of glossy matrices in bands, 1 to 10; 0: as --bands")
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");
@@ -179,7 +181,8 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       ->check([](const std::string& text) -> std::string {
         const std::size_t equals = text.rfind('=');
         const Result<Size> size =
-            parseSize(std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1));
+            parseSize(std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1),
+                      kMostTexels);
         return size ? "" : size.error().message;
       })
       ->group("Transfer");

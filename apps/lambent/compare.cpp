@@ -9,8 +9,11 @@
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
+#include "apps/lambent/named_files.h"
 #include "apps/lambent/picture_arguments.h"
+#include "apps/lambent/reading_arguments.h"
 #include "apps/lambent/receiver_file.h"
+#include "apps/lambent/standard_streams.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/image/code_difference.h"
 #include "lambent/image/compare.h"
@@ -32,6 +35,7 @@ struct Arguments {
   DevelopmentArguments development;
   float gain = 10.0f;
   std::vector<std::string> limits;
+  ReadingArguments reading;
 };
 
 constexpr std::string_view kExamples = R"(A is the truth, B what is judged.
@@ -67,8 +71,8 @@ Result<Limit> parseLimit(const std::string& text) {
       std::find(kMetrics.begin(), kMetrics.end(), metric) == kMetrics.end())
     return badUsage(
         fmt::format("'{}': write METRIC=VALUE with one of {}", text, fmt::join(kMetrics, ", ")));
-  const Result<double> value = parseNumber(std::string_view(text).substr(equals + 1));
-  if (!value) return value.error();
+  const Result<double> value = parseNumber(std::string_view(text).substr(equals + 1), {0.0, 1e30});
+  if (!value) return badUsage(fmt::format("'{}': {}", text, value.error().message));
   return Limit{metric, *value};
 }
 
@@ -144,9 +148,9 @@ std::string textOf(const Outcome& outcome, std::string_view unit) {
 Result<Outcome> compareReceivers(const Arguments& arguments) {
   if (!arguments.difference.empty() || !arguments.strip.empty())
     return badUsage("--diff and --strip need two pictures, not receivers");
-  const auto a = readReceivers(arguments.truth);
+  const auto a = readReceivers(arguments.truth, arguments.reading.memoryLimit);
   if (!a) return a.error();
-  const auto b = readReceivers(arguments.judged);
+  const auto b = readReceivers(arguments.judged, arguments.reading.memoryLimit);
   if (!b) return b.error();
   if (a->receivers.size() != b->receivers.size())
     return badInput(
@@ -176,7 +180,7 @@ std::optional<double> noiseOf(const Arguments& arguments, const image::Image& a,
   double variance = 0.0, power = 0.0;
   bool known = false;
   for (const auto& path : {arguments.truth, arguments.judged}) {
-    const auto layer = image::readLayer(path, "variance");
+    const auto layer = image::readLayer(path, "variance", arguments.reading.forImage());
     if (!layer || layer->pixels.size() != a.pixels.size()) continue;
     known = true;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
@@ -210,14 +214,15 @@ Status writeStrip(const Arguments& arguments, const image::Image& a, const image
 }
 
 Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
-  for (const auto& output : {arguments.difference, arguments.strip}) {
-    if (output.empty()) continue;
-    for (const auto& input : {arguments.truth, arguments.judged})
-      if (Status s = checkOutput(output, {".png"}, input); !s) return s.error();
-  }
-  const auto a = image::read(arguments.truth);
+  NamedFiles files;
+  files.writes("--diff", arguments.difference, {".png"});
+  files.writes("--strip", arguments.strip, {".png"});
+  files.reads("A", arguments.truth);
+  files.reads("B", arguments.judged);
+  if (Status distinct = files.check(); !distinct) return distinct.error();
+  const auto a = image::read(arguments.truth, arguments.reading.forImage());
   if (!a) return a.error();
-  const auto b = image::read(arguments.judged);
+  const auto b = image::read(arguments.judged, arguments.reading.forImage());
   if (!b) return b.error();
   if (a->width != b->width || a->height != b->height)
     return badInput(fmt::format("{} is {}x{}, {} is {}x{}: make both of one --size",
@@ -288,12 +293,12 @@ Status runCompare(const Arguments& arguments, Console& console) {
     text += fmt::format("difference x{:g}: {}\n", arguments.gain, arguments.difference.string());
   if (!arguments.strip.empty()) text += fmt::format("strip: {}\n", arguments.strip.string());
   if (!exceeded.empty()) {
-    if (!console.options().json) fmt::print("{}", text);
     console.keep(json);
+    if (!console.options().json)
+      if (const Status said = print(text); !said) exceeded += "; " + said.error().message;
     return failed(exceeded);
   }
-  console.finish(json, text);
-  return Status::ok();
+  return console.finish(json, text);
 }
 
 }  // namespace
@@ -313,8 +318,7 @@ Verb addCompare(CLI::App& root, ConsoleOptions& common) {
   app->add_option("--strip", arguments->strip, "Write A, B and the difference side by side")
       ->option_text("OUT.png")
       ->group("Pictures");
-  app->add_option("--gain", arguments->gain, "What the difference is multiplied by")
-      ->check(CLI::PositiveNumber)
+  addNumber(*app, "--gain", arguments->gain, {1e-6, 1e6}, "What the difference is multiplied by")
       ->option_text("FACTOR")
       ->capture_default_str()
       ->group("Pictures");
@@ -327,6 +331,7 @@ Verb addCompare(CLI::App& root, ConsoleOptions& common) {
         return limit ? "" : limit.error().message;
       })
       ->group("Output");
+  arguments->reading.addLimitTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runCompare(*arguments, console); }};
 }

@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <cstdlib>
+
+#include "apps/lambent/numbers.h"
+#include "apps/lambent/standard_streams.h"
 
 namespace lambent::tool {
 
@@ -32,21 +34,25 @@ int exitCodeOf(ErrorKind kind) {
   return kExitFailed;
 }
 
+std::string textOf(const Json& whole) {
+  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 }  // namespace
 
 void addCommonOptions(CLI::App& app, ConsoleOptions& options) {
   app.add_flag("--json", options.json, "Print the summary as JSON on stdout")->group("Output");
   app.add_flag("-q,--quiet", options.quiet, "No progress, no notes; warnings and errors stay")
       ->group("Output");
-  app.add_option("--threads", options.threads,
-                 "Threads to use; 0: all. The result has the same bytes with any number")
-      ->check(CLI::Range(0, 4096))
+  addNumber(app, "--threads", options.threads, {0, 4096},
+            "Threads to use; 0: all. The result has the same bytes with any number")
+      ->default_str("")  // the text says it
       ->option_text("N")
       ->group("Output");
 }
 
 void complain(std::string_view message, std::string_view helpCommand) {
-  fmt::print(stderr, "error: {}\nTry '{}'.\n", message, helpCommand);
+  tell(fmt::format("error: {}\nTry '{}'.\n", message, helpCommand));
 }
 
 Console::Console(const ConsoleOptions& options) : options_(options), bar_(styleFor(options)) {}
@@ -68,7 +74,7 @@ void Console::report(const Findings& findings) {
   for (const Finding& finding : findings) {
     const bool warning = finding.severity == Severity::Warning;
     if (warning || !options_.quiet)
-      fmt::print(stderr, "{}: {}\n", warning ? "warning" : "note", finding.message);
+      tell(fmt::format("{}: {}\n", warning ? "warning" : "note", finding.message));
     findings_.push_back(finding);
   }
 }
@@ -91,12 +97,9 @@ Json Console::findingsAsJson() const {
   return list;
 }
 
-void Console::finish(Json summary, std::string_view text) {
+Status Console::finish(Json summary, std::string_view text) {
   bar_.finish();
-  if (!options_.json) {
-    fmt::print("{}", text);
-    return;
-  }
+  if (!options_.json) return print(text);
   Json whole = {{"status", "done"}};
   whole.update(summary);
   whole["findings"] = findingsAsJson();
@@ -106,18 +109,19 @@ void Console::finish(Json summary, std::string_view text) {
     if (stage.units > 0) entry.update({{"units", stage.units}, {"unit", stage.unit}});
     stages.push_back(entry);
   }
-  fmt::print("{}\n", whole.dump(2, ' ', false, Json::error_handler_t::replace));
+  return print(textOf(whole));
 }
 
 int Console::fail(const Error& error) {
   bar_.finish();
   const int code = exitCodeOf(error.kind);
-  fmt::print(stderr, "error: {}\n", error.message);
+  tell(fmt::format("error: {}\n", error.message));
   if (options_.json) {
     Json whole = {{"status", "failed"}, {"exit_code", code}, {"error", error.message}};
     whole.update(kept_);
     whole["findings"] = findingsAsJson();
-    fmt::print("{}\n", whole.dump(2, ' ', false, Json::error_handler_t::replace));
+    if (const Status said = print(textOf(whole)); !said)
+      tell(fmt::format("error: {}\n", said.error().message));
   }
   return code;
 }

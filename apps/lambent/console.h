@@ -58,7 +58,8 @@ class Console {
   void warn(std::string code, std::string message);
 
   /// The verb is done: prints `text`, or under --json `summary` with status, findings and stages.
-  void finish(Json summary, std::string_view text);
+  /// Failed if it cannot be said: see print().
+  Status finish(Json summary, std::string_view text);
   /// What the JSON summary is to hold even if the verb fails after all.
   void keep(Json summary) { kept_ = std::move(summary); }
   /// The verb is not done: prints the error and returns the exit code.

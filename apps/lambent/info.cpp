@@ -8,8 +8,8 @@
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
+#include "apps/lambent/reading_arguments.h"
 #include "apps/lambent/receiver_file.h"
-#include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
 #include "lambent/asset/rtt_file.h"
@@ -37,13 +37,13 @@ struct Whole {
   Description description;
 };
 
-Result<Whole> describeModel(const std::filesystem::path& path, const scene_io::LoadOptions& loading,
+Result<Whole> describeModel(const std::filesystem::path& path, const ReadingArguments& reading,
                             Console& console) {
   if (extensionOf(path) == ".glb") {
     const Result<bool> baked = asset::isAsset(path);
     if (!baked) return baked.error();
     if (*baked) {
-      const auto asset = asset::read(path);
+      const auto asset = asset::read(path, reading.forAsset());
       if (!asset) return asset.error();
       Description scene = describe(asset->scene);
       const Description transfer = describe(*asset);
@@ -52,10 +52,10 @@ Result<Whole> describeModel(const std::filesystem::path& path, const scene_io::L
       return Whole{"asset", scene};
     }
   }
-  const auto loaded = scene_io::load(path, loading);
+  const auto loaded = scene_io::load(path, reading.forScene());
   if (!loaded) {
     if (extensionOf(path) == ".ply" && loaded.error().kind == ErrorKind::BadInput) {
-      if (const auto receivers = readReceivers(path))
+      if (const auto receivers = readReceivers(path, reading.memoryLimit))
         return Whole{
             "receivers",
             {fmt::format("{} shaded receivers\n", formatCount(receivers->receivers.size())),
@@ -67,9 +67,8 @@ Result<Whole> describeModel(const std::filesystem::path& path, const scene_io::L
   return Whole{"scene", describe(loaded->scene)};
 }
 
-Result<Whole> describeImage(const std::filesystem::path& path,
-                            const scene_io::LoadOptions& loading) {
-  auto image = image::read(path, {.memoryLimit = loading.memoryLimit});
+Result<Whole> describeImage(const std::filesystem::path& path, const ReadingArguments& reading) {
+  auto image = image::read(path, reading.forImage());
   if (!image) return image.error();
   Description d = describe(*image);
   if (image->width == 2 * image->height) {  // the shape of a latitude-longitude map
@@ -80,25 +79,25 @@ Result<Whole> describeImage(const std::filesystem::path& path,
   return Whole{"image", d};
 }
 
-Result<Whole> describeFile(const std::filesystem::path& path, const scene_io::LoadOptions& loading,
+Result<Whole> describeFile(const std::filesystem::path& path, const ReadingArguments& reading,
                            Console& console) {
   const std::string extension = extensionOf(path);
   if (extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".ply")
-    return describeModel(path, loading, console);
+    return describeModel(path, reading, console);
   if (extension == ".rtt") {
-    const auto rtt = asset::readRtt(path);
+    const auto rtt = asset::readRtt(path, reading.forAsset());
     if (!rtt) return rtt.error();
     return Whole{"radiance transfer texture", describe(asset::summarize(*rtt))};
   }
   for (const std::string_view picture : {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"})
-    if (extension == picture) return describeImage(path, loading);
+    if (extension == picture) return describeImage(path, reading);
   if (extension == ".json") {
     const auto light = light::readLight(path);
     if (!light) return light.error();
     return Whole{"light", describe(*light)};
   }
   if (extension == ".csv") {
-    const auto receivers = readReceivers(path);
+    const auto receivers = readReceivers(path, reading.memoryLimit);
     if (!receivers) return receivers.error();
     return Whole{"receivers",
                  {fmt::format("{} shaded receivers\n", formatCount(receivers->receivers.size())),
@@ -110,17 +109,16 @@ Result<Whole> describeFile(const std::filesystem::path& path, const scene_io::Lo
       path.string(), extension));
 }
 
-Status runInfo(const std::filesystem::path& path, const scene_io::LoadOptions& loading,
+Status runInfo(const std::filesystem::path& path, const ReadingArguments& reading,
                Console& console) {
-  const auto whole = describeFile(path, loading, console);
+  const auto whole = describeFile(path, reading, console);
   if (!whole) return whole.error();
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
   Json json = {{"file", path.string()}, {"kind", whole->kind}, {"bytes", bytes}};
   json.update(whole->description.json);
-  console.finish(json, fmt::format("{}: {}, {}\n{}", path.string(), whole->kind,
-                                   formatBytes(double(bytes)), whole->description.text));
-  return Status::ok();
+  return console.finish(json, fmt::format("{}: {}, {}\n{}", path.string(), whole->kind,
+                                          formatBytes(double(bytes)), whole->description.text));
 }
 
 }  // namespace
@@ -128,7 +126,7 @@ Status runInfo(const std::filesystem::path& path, const scene_io::LoadOptions& l
 Verb addInfo(CLI::App& root, ConsoleOptions& common) {
   struct Arguments {
     std::filesystem::path path;
-    scene_io::LoadOptions loading;
+    ReadingArguments reading;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* app =
@@ -136,10 +134,10 @@ Verb addInfo(CLI::App& root, ConsoleOptions& common) {
   app->group("Verbs");
   app->footer(std::string(kExamples));
   app->add_option("FILE", arguments->path, "The file to look into")->required();
-  addLoadOptions(*app, arguments->loading);
+  arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) {
-            return runInfo(arguments->path, arguments->loading, console);
+            return runInfo(arguments->path, arguments->reading, console);
           }};
 }
 

@@ -9,6 +9,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
+#include "apps/lambent/named_files.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/light/light_file.h"
 #include "lambent/sources/source.h"
@@ -21,6 +22,7 @@ struct Arguments {
   LightArguments light;
   std::filesystem::path output;
   int bands = 5;
+  ReadingArguments reading;
 };
 
 constexpr std::string_view kExamples = R"(
@@ -33,9 +35,11 @@ Examples:
 )";
 
 Status runLight(const Arguments& arguments, Console& console) {
-  Status writable = checkOutput(arguments.output, {".json"}, arguments.light.source);
-  if (!writable) return writable;
-  const auto environment = arguments.light.environment(console);
+  NamedFiles files;
+  files.writes("--output", arguments.output, {".json"});
+  files.readsLight("SOURCE", arguments.light.source);
+  if (Status distinct = files.check(); !distinct) return distinct;
+  const auto environment = arguments.light.environment(arguments.reading, console);
   if (!environment) return environment.error();
   const auto light = arguments.light.coefficients(*environment, arguments.bands, console);
   if (!light) return light.error();
@@ -43,9 +47,8 @@ Status runLight(const Arguments& arguments, Console& console) {
       written(console.stage("write", [&] { return light::writeLight(*light, arguments.output); }));
   if (!status) return status;
   const Description description = describe(*light);
-  console.finish({{"output", arguments.output.string()}, {"light", description.json}},
-                 fmt::format("{}: {}", arguments.output.string(), description.text));
-  return Status::ok();
+  return console.finish({{"output", arguments.output.string()}, {"light", description.json}},
+                        fmt::format("{}: {}", arguments.output.string(), description.text));
 }
 
 }  // namespace
@@ -60,14 +63,14 @@ Verb addLight(CLI::App& root, ConsoleOptions& common) {
   app->add_option("-o,--output", arguments->output, "The coefficients to write, a .json")
       ->option_text("LIGHT.json")
       ->required();
-  app->add_option("--bands", arguments->bands,
-                  "Bands to keep, 1 to 10: their square is how many "
-                  "coefficients a channel has")
-      ->check(CLI::Range(1, 10))
+  addNumber(*app, "--bands", arguments->bands, {1, 10},
+            "Bands to keep, 1 to 10: their square is how many "
+            "coefficients a channel has")
       ->option_text("N")
       ->capture_default_str()
       ->group("Light");
   arguments->light.addWindowTo(*app);
+  arguments->reading.addLimitTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runLight(*arguments, console); }};
 }

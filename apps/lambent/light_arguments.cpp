@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 
+#include "apps/lambent/numbers.h"
 #include "lambent/light/windowing.h"
 #include "lambent/sources/source.h"
 
@@ -16,10 +17,10 @@ CLI::Option* LightArguments::addTo(CLI::App& app, bool positional) {
   CLI::Option* option = positional ? app.add_option("SOURCE", source, text)
                                    : app.add_option("--light", source, text)->option_text("SOURCE");
   option->required();
-  app.add_option("--rotate-y", rotateY,
-                 "Turn the light about the vertical, counter-clockwise seen from above")
+  // What a float tells apart after the turn, to a tenth of a degree.
+  addNumber(app, "--rotate-y", rotateY, {-1e6, 1e6},
+            "Turn the light about the vertical, counter-clockwise seen from above")
       ->option_text("DEGREES")
-      ->capture_default_str()
       ->group("Light");
   return option;
 }
@@ -37,9 +38,12 @@ void LightArguments::addWindowTo(CLI::App& app) {
       ->group("Light");
 }
 
-Result<light::Environment> LightArguments::environment(Console& console) const {
-  auto parsed = console.stage("light", [&] { return sources::parseSource(source); });
+Result<light::Environment> LightArguments::environment(const ReadingArguments& reading,
+                                                       Console& console) const {
+  auto parsed =
+      console.stage("light", [&] { return sources::parseSource(source, reading.forSource()); });
   if (!parsed) return parsed.error();
+  console.report(parsed->findings);
   if (rotateY == 0.0) return std::move(parsed->value);
   const float angle = float(rotateY * kPi / 180.0);
   return parsed->value.rotated(Eigen::AngleAxisf(angle, Vec3::UnitY()).toRotationMatrix());

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/lambent/console.h"
+#include "apps/lambent/reading_arguments.h"
 #include "lambent/light/environment.h"
 #include "lambent/report/result.h"
 #include "lambent/sh/coefficients.h"
@@ -23,7 +24,7 @@ struct LightArguments {
   /// Returns the option of the source, which is required.
   CLI::Option* addTo(CLI::App& app, bool positional);
   void addWindowTo(CLI::App& app);
-  Result<light::Environment> environment(Console& console) const;
+  Result<light::Environment> environment(const ReadingArguments& reading, Console& console) const;
   /// The environment in n bands, windowed.
   Result<sh::RgbCoefficients> coefficients(const light::Environment& environment, int bands,
                                            Console& console) const;

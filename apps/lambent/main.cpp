@@ -5,10 +5,12 @@
 #include <array>
 #include <new>
 #include <optional>
+#include <sstream>
 
 #include "apps/lambent/console.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/interrupt.h"
+#include "apps/lambent/standard_streams.h"
 #include "apps/lambent/verbs.h"
 
 namespace {
@@ -31,9 +33,17 @@ Status run(const Verb& verb, const ConsoleOptions& options, Console& console) {
   }
 }
 
+/// Help and version; the exit code.
+int say(std::string_view text) {
+  const Status said = print(text);
+  if (!said) tell("error: " + said.error().message + '\n');
+  return said ? kExitDone : kExitFailed;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  secureStandardStreams();
   installInterruptHandlers();
 
   CLI::App root{std::string(kOverview), "lambent"};
@@ -51,7 +61,11 @@ int main(int argc, char** argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return root.exit(e);
+    if (e.get_exit_code() == 0) {
+      std::ostringstream help, nothing;
+      root.exit(e, help, nothing);
+      return say(help.str());
+    }
     const auto named = root.get_subcommands();
     complain(e.what(),
              named.empty() ? "lambent --help" : "lambent " + named.front()->get_name() + " --help");
@@ -64,6 +78,5 @@ int main(int argc, char** argv) {
     const Status status = run(verb, options, console);
     return status ? kExitDone : console.fail(status.error());
   }
-  std::fputs(root.help().c_str(), stdout);
-  return kExitDone;
+  return say(root.help());
 }

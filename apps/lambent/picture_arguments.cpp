@@ -10,8 +10,9 @@
 
 namespace lambent::tool {
 
-void ViewArguments::addTo(CLI::App& app) {
-  addParsed(app, "--size", size, parseSize, "Size of the picture in pixels (default: 1024x1024)")
+void ViewArguments::addTo(CLI::App& app, int mostPixels) {
+  addParsed(app, "--size", size, sizesUpTo(mostPixels),
+            "Size of the picture in pixels (default: 1024x1024)")
       ->option_text("WIDTHxHEIGHT")
       ->group("Picture");
   app.add_option("--camera", camera,
@@ -30,10 +31,9 @@ Result<scene::Camera> ViewArguments::choose(const scene::Scene& scene) const {
   if (camera.empty()) return scene.cameras.front();
   for (const scene::Camera& each : scene.cameras)
     if (each.name == camera) return each;
-  const Result<double> number = parseNumber(camera);
-  if (number && *number >= 0.0 && *number < double(scene.cameras.size()) &&
-      *number == std::floor(*number))
-    return scene.cameras[size_t(*number)];
+  const Result<double> number = parseNumber(
+      camera, {.least = 0.0, .most = double(scene.cameras.size()) - 1.0, .whole = true});
+  if (number) return scene.cameras[size_t(*number)];
   std::string names = "auto";
   for (const scene::Camera& each : scene.cameras) names += ", " + each.name;
   return badUsage(fmt::format("--camera {}: there is no such camera; there are {}", camera, names));
@@ -44,7 +44,9 @@ void DevelopmentArguments::addTo(CLI::App& app) {
                  "Exposure in EV, each step twice as bright, or auto. EXR pictures stay linear and "
                  "take an exposure only when one is given as a number")
       ->check([](const std::string& text) -> std::string {
-        return text == "auto" || parseNumber(text) ? "" : "'" + text + "' is neither EV nor auto";
+        if (text == "auto") return "";
+        const Result<double> number = parseNumber(text, kExposures);
+        return number ? "" : number.error().message + ", nor auto";
       })
       ->option_text("EV|auto")
       ->capture_default_str()
@@ -57,7 +59,7 @@ void DevelopmentArguments::addTo(CLI::App& app) {
 }
 
 float DevelopmentArguments::exposureFor(const image::Image& picture) const {
-  const Result<double> number = parseNumber(exposure);
+  const Result<double> number = parseNumber(exposure, kExposures);
   return number ? float(*number) : automaticExposure(picture);
 }
 

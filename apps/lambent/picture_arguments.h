@@ -18,7 +18,8 @@ struct ViewArguments {
   std::string camera;  ///< name or number in the file, "auto", or empty: the file's first, if any
   bool background = false;
 
-  void addTo(CLI::App& app);
+  /// `mostPixels`: a side.
+  void addTo(CLI::App& app, int mostPixels);
   Result<scene::Camera> choose(const scene::Scene& scene) const;
 };
 

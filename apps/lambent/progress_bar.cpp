@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "apps/lambent/standard_streams.h"
 
 namespace lambent::tool {
 
@@ -90,8 +91,7 @@ void ProgressBar::draw(const ProgressUpdate& update, Clock::time_point now) {
   const std::string left =
       fraction > 0.0 ? formatSeconds(seconds * (1.0 - fraction) / fraction) + " left" : "";
   if (style_ == Style::Lines) {
-    fmt::print(stderr, "{}: {:.0f}%, {}, {}\n", update.stage, 100.0 * fraction, rate, left);
-    std::fflush(stderr);
+    tell(fmt::format("{}: {:.0f}%, {}, {}\n", update.stage, 100.0 * fraction, rate, left));
     return;
   }
   const std::string tail = fmt::format(" {:3.0f}%  {}  {}", 100.0 * fraction, rate, left);
@@ -101,16 +101,12 @@ void ProgressBar::draw(const ProgressUpdate& update, Clock::time_point now) {
   std::string line = fmt::format("{} [{}{}]{}", update.stage, std::string(size_t(filled), '#'),
                                  std::string(size_t(width - filled), '.'), tail);
   line.resize(std::min(line.size(), size_t(std::max(terminalWidth() - 1, 1))));
-  fmt::print(stderr, "\r\033[K{}", line);
-  std::fflush(stderr);
+  tell("\r\033[K" + line);
   drawn_ = true;
 }
 
 void ProgressBar::finish() {
-  if (drawn_) {
-    std::fputs("\r\033[K", stderr);
-    std::fflush(stderr);
-  }
+  if (drawn_) tell("\r\033[K");
   drawn_ = false;
   running_ = false;
 }

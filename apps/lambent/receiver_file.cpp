@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -12,6 +13,7 @@
 
 #include "apps/lambent/arguments.h"
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/budget.h"
 
 namespace lambent::tool {
 
@@ -136,11 +138,20 @@ Status writeReceivers(const ReceiverFile& file, const std::filesystem::path& pat
   return file::writeAtomically(path, bytes);
 }
 
-Result<ReceiverFile> readReceivers(const std::filesystem::path& path) {
+Result<ReceiverFile> readReceivers(const std::filesystem::path& path,
+                                   std::optional<std::uint64_t> memoryLimit) {
   const auto bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
   const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  return extensionOf(path) == ".csv" ? parseCsv(text, path) : parsePly(text, path);
+  const bool csv = extensionOf(path) == ".csv";
+  // A row of text is a line; the other rows are held as they lie in the file.
+  const std::uint64_t most =
+      csv ? sizeof(Row) * (1 + std::uint64_t(std::count(text.begin(), text.end(), '\n')))
+          : text.size();
+  file::Budget budget(memoryLimit);
+  budget.addFile(text.size());
+  if (Status fits = budget.hold(most, path.string()); !fits) return fits.error();
+  return csv ? parseCsv(text, path) : parsePly(text, path);
 }
 
 }  // namespace lambent::tool

@@ -2,7 +2,9 @@
 // g, b in world space, and vr, vg, vb where the radiance is an estimate with a variance.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "lambent/math/types.h"
@@ -23,6 +25,8 @@ struct ReceiverFile {
 /// By extension, .ply (little-endian floats) or .csv. Atomic.
 Status writeReceivers(const ReceiverFile& file, const std::filesystem::path& path);
 /// Reads what writeReceivers wrote.
-Result<ReceiverFile> readReceivers(const std::filesystem::path& path);
+/// `memoryLimit`: bytes; nothing: as much as a file of that size may need (see file/budget.h).
+Result<ReceiverFile> readReceivers(const std::filesystem::path& path,
+                                   std::optional<std::uint64_t> memoryLimit);
 
 }  // namespace lambent::tool

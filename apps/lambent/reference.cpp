@@ -10,6 +10,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
+#include "apps/lambent/named_files.h"
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/scene_arguments.h"
@@ -105,17 +106,17 @@ Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
       written(console.stage("write", [&] { return writeReceivers(file, arguments.output); }));
   if (!status) return status;
   const double error = power > 0.0 ? std::sqrt(variance / power) : 0.0;
-  console.finish({{"output", arguments.output.string()},
-                  {"receivers", probes.size()},
-                  {"spp", arguments.options.samples},
-                  {"bounces", arguments.options.bounces},
-                  {"bands", arguments.bands},
-                  {"estimated_relative_rmse", error}},
-                 fmt::format("{}: {} receivers, {} paths each, {} bounces\n"
-                             "estimated relative RMSE of its own noise: {:.3g}%\n",
-                             arguments.output.string(), formatCount(probes.size()),
-                             arguments.options.samples, arguments.options.bounces, 100.0 * error));
-  return Status::ok();
+  return console.finish(
+      {{"output", arguments.output.string()},
+       {"receivers", probes.size()},
+       {"spp", arguments.options.samples},
+       {"bounces", arguments.options.bounces},
+       {"bands", arguments.bands},
+       {"estimated_relative_rmse", error}},
+      fmt::format("{}: {} receivers, {} paths each, {} bounces\n"
+                  "estimated relative RMSE of its own noise: {:.3g}%\n",
+                  arguments.output.string(), formatCount(probes.size()), arguments.options.samples,
+                  arguments.options.bounces, 100.0 * error));
 }
 
 /// What the state says where no flag does: the material's lobe, and which transport there is.
@@ -131,10 +132,12 @@ Result<Shot> shotOf(const Arguments& arguments, const std::optional<view::ViewSt
                     const scene::Scene& scene, Console& console) {
   Result<Shot> shot = failed("");
   if (state) {
-    shot = tool::shotOf(*state, arguments.view, scene, std::max(arguments.bands, 1), console);
+    shot = tool::shotOf(*state, scene,
+                        {arguments.view, std::max(arguments.bands, 1), arguments.scene.reading},
+                        console);
     if (!shot) return shot;
   } else {
-    const auto environment = arguments.light.environment(console);
+    const auto environment = arguments.light.environment(arguments.scene.reading, console);
     if (!environment) return environment.error();
     sh::RgbCoefficients light;
     if (arguments.bands > 0) {
@@ -155,19 +158,24 @@ Result<Shot> shotOf(const Arguments& arguments, const std::optional<view::ViewSt
 }
 
 Status runReference(Arguments arguments, Console& console) {
-  Status writable =
-      checkOutput(arguments.output, {".exr", ".png", ".csv", ".ply"}, arguments.scene.path);
-  if (!writable) return writable;
+  NamedFiles files;
+  files.writes("--output", arguments.output, {".exr", ".png", ".csv", ".ply"});
+  files.reads("SCENE", arguments.scene.path);
+  files.readsLight("--light", arguments.light.source);
+  files.reads("--view", arguments.state.path);
+  if (Status distinct = files.check(); !distinct) return distinct;
   std::optional<view::ViewState> state;
   if (arguments.state.given()) {
     const auto read = arguments.state.read(*arguments.app, arguments.light, arguments.view,
                                            arguments.development);
     if (!read) return read.error();
     take(*(state = *read), arguments);
+    files.readsLight("the light of --view", state->environment);
+    if (Status distinct = files.check(); !distinct) return distinct;
   }
   if (arguments.bands == 0 && arguments.light.window != "none")
     return badUsage("--window softens the bands of a light: give --bands too");
-  const auto scene = arguments.scene.load(console);
+  const auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
   const auto shot = shotOf(arguments, state, *scene, console);
   if (!shot) return shot.error();
@@ -200,7 +208,7 @@ Status runReference(Arguments arguments, Console& console) {
   }));
   if (!status) return status;
   const double error = estimatedError(*picture);
-  console.finish(
+  return console.finish(
       {{"output", arguments.output.string()},
        {"spp", options.samples},
        {"bounces", options.bounces},
@@ -213,7 +221,6 @@ Status runReference(Arguments arguments, Console& console) {
                   "estimated relative RMSE of its own noise: {:.3g}%\n",
                   arguments.output.string(), formatSize(arguments.view.size), options.samples,
                   options.bounces, formatSeconds(seconds), 100.0 * error));
-  return Status::ok();
 }
 
 }  // namespace
@@ -233,15 +240,13 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
          "for the radiance of every vertex, with its variance")
       ->option_text("OUT.exr|.png|.csv|.ply")
       ->required();
-  app->add_option("--spp", arguments->options.samples,
-                  "Paths per pixel. Four times as many: half the noise")
-      ->check(CLI::Range(1, 1 << 20))
+  addNumber(*app, "--spp", arguments->options.samples, {1, 1 << 20},
+            "Paths per pixel. Four times as many: half the noise")
       ->option_text("N")
       ->capture_default_str()
       ->group("Simulation");
-  app->add_option("--bounces", arguments->options.bounces,
-                  "Bounces beyond the direct light, as in a bake")
-      ->check(CLI::Range(0, 1000))
+  addNumber(*app, "--bounces", arguments->options.bounces, {0, 1000},
+            "Bounces beyond the direct light, as in a bake")
       ->option_text("N")
       ->capture_default_str()
       ->group("Simulation");
@@ -249,23 +254,22 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
             "unshadowed, shadowed, or interreflected, as in a bake")
       ->option_text("KIND")
       ->group("Simulation");
-  app->add_option("--seed", arguments->options.seed, "Two seeds have independent noise")
+  addNumber(*app, "--seed", arguments->options.seed, kSeeds, "Two seeds have independent noise")
       ->option_text("N")
       ->capture_default_str()
       ->group("Simulation");
-  app->add_option("--bands", arguments->bands,
-                  "Cut the light to this many bands, as a bake sees it; 0: the whole light")
-      ->check(CLI::Range(0, 10))
+  addNumber(*app, "--bands", arguments->bands, {0, 10},
+            "Cut the light to this many bands, as a bake sees it; 0: the whole light")
       ->option_text("N")
       ->capture_default_str()
       ->group("Light");
   arguments->light.addWindowTo(*app);
-  addParsed(*app, "--eye", arguments->eye, parseTriple,
+  addParsed(*app, "--eye", arguments->eye, parsePoint,
             "With .csv and .ply: where the viewer stands. Without it every vertex is seen along "
             "its normal")
       ->option_text("X,Y,Z")
       ->group("View");
-  arguments->view.addTo(*app);
+  arguments->view.addTo(*app, 32768);
   arguments->development.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runReference(*arguments, console); }};

@@ -10,6 +10,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
+#include "apps/lambent/named_files.h"
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/showing_arguments.h"
 #include "apps/lambent/state_arguments.h"
@@ -40,6 +41,7 @@ struct Arguments {
   Backend backend = Backend::Gl;
   int samples = 16;
   ShowingArguments showing;
+  ReadingArguments reading;
   const CLI::App* app = nullptr;
 
   bool given(const char* option) const { return app->count(option) > 0; }
@@ -79,7 +81,7 @@ shade::PictureOptions pictureOptions(const Arguments& arguments, const view::Vie
 }
 
 Result<Shot> shotOf(const Arguments& arguments, const asset::Asset& asset, Console& console) {
-  const auto environment = arguments.light.environment(console);
+  const auto environment = arguments.light.environment(arguments.reading, console);
   if (!environment) return environment.error();
   const auto light = arguments.light.coefficients(*environment, asset.transfer.bands, console);
   if (!light) return light.error();
@@ -89,19 +91,27 @@ Result<Shot> shotOf(const Arguments& arguments, const asset::Asset& asset, Conso
 }
 
 Status runRender(Arguments arguments, Console& console) {
-  Status writable = checkOutput(arguments.output, {".png", ".exr"}, arguments.asset);
-  if (!writable) return writable;
+  NamedFiles files;
+  files.writes("--output", arguments.output, {".png", ".exr"});
+  files.readsAsset("ASSET", arguments.asset);
+  files.readsLight("--light", arguments.light.source);
+  files.reads("--view", arguments.state.path);
+  if (Status distinct = files.check(); !distinct) return distinct;
   std::optional<view::ViewState> state;
   if (arguments.state.given()) {
     const auto read = arguments.state.read(*arguments.app, arguments.light, arguments.view,
                                            arguments.development);
     if (!read) return read.error();
     state = *read;
+    files.readsLight("the light of --view", state->environment);
+    if (Status distinct = files.check(); !distinct) return distinct;
   }
-  const auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
+  const auto asset = console.stage(
+      "load", [&] { return asset::read(arguments.asset, arguments.reading.forAsset()); });
   if (!asset) return asset.error();
   const auto shot =
-      state ? tool::shotOf(*state, arguments.view, asset->scene, asset->transfer.bands, console)
+      state ? tool::shotOf(*state, asset->scene,
+                           {arguments.view, asset->transfer.bands, arguments.reading}, console)
             : shotOf(arguments, *asset, console);
   if (!shot) return shot.error();
 
@@ -136,7 +146,7 @@ Status runRender(Arguments arguments, Console& console) {
   }));
   if (!status) return status;
   const std::string name = wordOf(arguments.backend, backends());
-  console.finish(
+  return console.finish(
       {{"output", arguments.output.string()},
        {"backend", name},
        {"exposure", ev},
@@ -144,7 +154,6 @@ Status runRender(Arguments arguments, Console& console) {
        {"picture", describe(*picture).json}},
       fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", arguments.output.string(),
                   formatSize(arguments.view.size), name, ev, formatSeconds(seconds)));
-  return Status::ok();
 }
 
 }  // namespace
@@ -164,13 +173,13 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
                   "The picture: .png for the eye, .exr for linear radiance")
       ->option_text("OUT.png|OUT.exr")
       ->required();
-  arguments->view.addTo(*app);
+  arguments->view.addTo(*app, 16384);
   addChoice(*app, "--backend", arguments->backend, backends(),
             "gl (OpenGL 4.5, without a window) or cpu")
       ->option_text("NAME")
       ->group("Picture");
-  app->add_option("--samples", arguments->samples, "Samples per pixel against jagged edges")
-      ->check(CLI::Range(1, 4096))
+  addNumber(*app, "--samples", arguments->samples, {1, 4096},
+            "Samples per pixel against jagged edges")
       ->option_text("N")
       ->capture_default_str()
       ->group("Picture");
@@ -179,6 +188,7 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
   arguments->showing.addFilterTo(*app);
   arguments->development.addTo(*app);
   arguments->light.addWindowTo(*app);
+  arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runRender(*arguments, console); }};
 }

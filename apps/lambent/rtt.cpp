@@ -11,10 +11,13 @@
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
+#include "apps/lambent/named_files.h"
+#include "apps/lambent/reading_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/rtt_file.h"
 #include "lambent/image/io.h"
 #include "lambent/meso/acquired.h"
+#include "lambent/meso/btf_table.h"
 #include "lambent/meso/build_rtt.h"
 #include "lambent/meso/effective_albedo.h"
 #include "lambent/meso/generators.h"
@@ -32,6 +35,8 @@ Choices<meso::RttMethod> methods() {
   return {{"gather", meso::RttMethod::Gather}, {"images", meso::RttMethod::Images}};
 }
 
+constexpr int kMostPositions = 1024, kMostLights = 256, kMostMeasuredLights = 64;  // a side
+
 struct Arguments {
   std::string patch;
   std::filesystem::path output, previewPath, patchPath;
@@ -41,6 +46,7 @@ struct Arguments {
   std::optional<double> depth, lobe;
   meso::RttOptions rtt;
   meso::PatchFileOptions file;
+  ReadingArguments reading;
   double white = 1.0;
 };
 
@@ -66,11 +72,12 @@ Examples:
 
 Result<Vec2> parsePeriod(std::string_view text) {
   const std::size_t times = text.find('x');
-  const Result<double> width = parseNumber(text.substr(0, times));
-  if (!width) return width.error();
-  const Result<double> height = times == text.npos ? width : parseNumber(text.substr(times + 1));
-  if (!height) return height.error();
-  if (!(*width > 0.0 && *height > 0.0)) return badUsage("a period is a number of metres above 0");
+  const NumberRange metres = {1e-6, 1e6};
+  const Result<double> width = parseNumber(text.substr(0, times), metres);
+  if (!width) return badUsage(fmt::format("'{}': {}", text, width.error().message));
+  const Result<double> height =
+      times == text.npos ? width : parseNumber(text.substr(times + 1), metres);
+  if (!height) return badUsage(fmt::format("'{}': {}", text, height.error().message));
   return Vec2(float(*width), float(*height));
 }
 
@@ -86,7 +93,7 @@ bool isGenerator(const std::string& name) {
 
 /// The patch that is named, with what the options change about it.
 Result<meso::Patch> makePatch(const Arguments& arguments, const std::optional<Vec2>& size,
-                              Console& console) {
+                              NamedFiles& files, Console& console) {
   if (isGenerator(arguments.patch)) {
     if (arguments.depth || arguments.albedo || !arguments.file.color.empty())
       return badUsage("--depth, --albedo and --color are for height fields in files; '" +
@@ -107,23 +114,39 @@ Result<meso::Patch> makePatch(const Arguments& arguments, const std::optional<Ve
   if (arguments.depth) options.depth = float(*arguments.depth);
   if (arguments.albedo) options.albedo = *arguments.albedo;
   if (arguments.backing) options.backing = *arguments.backing;
+  options.allowOutside = arguments.reading.allowOutside;
+  options.memoryLimit = arguments.reading.memoryLimit;
   auto loaded = console.stage("load", [&] { return meso::loadPatch(arguments.patch, options); });
   if (!loaded) return loaded.error();
   console.report(loaded->findings);
+  files.readsFilesOf("PATCH", loaded->linkedFiles);
+  if (Status distinct = files.check(); !distinct) return distinct.error();
   return std::move(loaded->value);
 }
 
+/// No output may replace a picture of a measured BTF.
+Status checkAgainstPictures(const std::filesystem::path& patch, NamedFiles& files) {
+  const auto table = meso::findBtfTable(patch);
+  if (!table) return table.error();
+  const auto samples = meso::readBtfTable(*table);
+  if (!samples) return samples.error();
+  files.reads("the table of PATCH", *table);
+  for (const meso::BtfSample& sample : *samples) files.reads("a picture of PATCH", sample.file);
+  return files.check();
+}
+
 Status runRtt(Arguments arguments, Console& console) {
-  if (Status fine = checkOutput(arguments.output, {".rtt"}, arguments.patch); !fine) return fine;
-  if (!arguments.previewPath.empty())
-    if (Status fine = checkOutput(arguments.previewPath, {".png", ".exr"}, arguments.patch); !fine)
-      return fine;
-  if (!arguments.patchPath.empty())
-    if (Status fine = checkOutput(arguments.patchPath, {".glb"}, arguments.patch); !fine)
-      return fine;
+  NamedFiles files;
+  files.writes("--output", arguments.output, {".rtt"});
+  files.writes("--preview", arguments.previewPath, {".png", ".exr"});
+  files.writes("--patch", arguments.patchPath, {".glb"});
+  if (!isGenerator(arguments.patch)) files.reads("PATCH", arguments.patch);
+  files.reads("--color", arguments.file.color);
+  if (Status distinct = files.check(); !distinct) return distinct;
   std::optional<Vec2> size;
   if (!arguments.size.empty()) size = *parsePeriod(arguments.size);
-  const Size positions = *parseSize(arguments.positions), lights = *parseSize(arguments.lights);
+  const Size positions = *parseSize(arguments.positions, kMostPositions),
+             lights = *parseSize(arguments.lights, kMostLights);
   meso::RttOptions& options = arguments.rtt;
   options.width = positions.width, options.height = positions.height;
   options.polarLights = lights.width, options.azimuthLights = lights.height;
@@ -135,16 +158,21 @@ Status runRtt(Arguments arguments, Console& console) {
   if (measured) {
     if (!arguments.patchPath.empty())
       return badUsage("--patch: a measured patch has no geometry to write");
+    if (std::max(lights.width, lights.height) > kMostMeasuredLights)
+      return badUsage(fmt::format("--lights {}: of a measured patch, each from 1 to {}",
+                                  arguments.lights, kMostMeasuredLights));
+    if (Status distinct = checkAgainstPictures(arguments.patch, files); !distinct) return distinct;
     meso::AcquiredOptions acquired;
     acquired.width = options.width, acquired.height = options.height;
     acquired.views = options.views, acquired.bands = options.bands;
     acquired.polarLights = options.polarLights, acquired.azimuthLights = options.azimuthLights;
     if (size) acquired.size = *size;
     acquired.white = float(arguments.white);
+    acquired.memoryLimit = arguments.reading.memoryLimit;
     acquired.threads = options.threads;
     built = meso::acquireRtt(arguments.patch, acquired, console.progress());
   } else {
-    auto patch = makePatch(arguments, size, console);
+    auto patch = makePatch(arguments, size, files, console);
     if (!patch) return patch.error();
     if (arguments.gloss)
       for (scene::Material& material : patch->scene.materials) {
@@ -184,7 +212,7 @@ Status runRtt(Arguments arguments, Console& console) {
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(arguments.output, ignored);
   const std::uint64_t rays = cost.viewRays + cost.lightRays;
-  console.finish(
+  return console.finish(
       {{"output", arguments.output.string()},
        {"bytes", bytes},
        {"name", rtt.name},
@@ -210,14 +238,13 @@ Status runRtt(Arguments arguments, Console& console) {
           rtt.views, rtt.bands, double(rtt.size.x()), double(rtt.size.y()), double(rtt.depth),
           albedo[0], albedo[1], albedo[2], transfer::nameOf(arguments.encoding), 100.0 * error,
           rays > 0 ? formatCount(rays) + " rays, " : std::string(), formatSeconds(seconds), times));
-  return Status::ok();
 }
 
 /// A check that turns what does not parse into wrong usage.
-template <class T>
-std::function<std::string(const std::string&)> parses(Result<T> (*parse)(std::string_view)) {
+template <class Parse>
+std::function<std::string(const std::string&)> parses(Parse parse) {
   return [parse](const std::string& text) -> std::string {
-    const Result<T> parsed = parse(text);
+    const auto parsed = parse(std::string_view(text));
     return parsed ? "" : parsed.error().message;
   };
 }
@@ -243,21 +270,19 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
       ->check(parses(parsePeriod))
       ->option_text("W[xH]")
       ->group(kPatch);
-  app->add_option("--depth", arguments->depth,
-                  "Of a height field, in metres. Default: PNG 0.15 of the period, EXR as it stands")
-      ->check(CLI::Range(0.0, 1e6))
+  addNumber(*app, "--depth", arguments->depth, {0.0, 1e6},
+            "Of a height field, in metres. Default: PNG 0.15 of the period, EXR as it stands")
       ->option_text("METRES")
       ->group(kPatch);
   app->add_option("--color", arguments->file.color, "Of a height field: a PNG or JPEG over it")
       ->option_text("FILE")
       ->group(kPatch);
-  addParsed(*app, "--albedo", arguments->albedo, parseRgb,
+  addParsed(*app, "--albedo", arguments->albedo, parseReflectance,
             "Of a height field without --color. Default: 0.7")
       ->option_text("R,G,B")
       ->group(kPatch);
-  app->add_option("--blend", arguments->file.blend,
-                  "Blend a height field's borders over this fraction of it, so that it tiles")
-      ->check(CLI::Range(0.0, 0.5))
+  addNumber(*app, "--blend", arguments->file.blend, {0.0, 0.5},
+            "Blend a height field's borders over this fraction of it, so that it tiles")
       ->option_text("FRACTION")
       ->capture_default_str()
       ->group(kPatch);
@@ -265,45 +290,41 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
             "The axis of a mesh file that points away from the patch: y (glTF's up) or z")
       ->option_text("AXIS")
       ->group(kPatch);
-  addParsed(*app, "--backing", arguments->backing, parseRgb,
+  addParsed(*app, "--backing", arguments->backing, parseReflectance,
             "Reflectance of the plane under a mesh that is open below. Default: 0.05")
       ->option_text("R,G,B")
       ->group(kPatch);
-  addParsed(*app, "--gloss", arguments->gloss, parseRgb,
+  addParsed(*app, "--gloss", arguments->gloss, parseReflectance,
             "Glossy reflectance for all of the patch, besides its diffuse one")
       ->option_text("R,G,B")
       ->group(kPatch);
-  app->add_option("--lobe", arguments->lobe, "With --gloss: the exponent of the lobe")
-      ->check(CLI::Range(0.0, 1e5))
+  addNumber(*app, "--lobe", arguments->lobe, kLobeExponents,
+            "With --gloss: the exponent of the lobe")
       ->option_text("EXPONENT")
       ->group(kPatch);
-  app->add_option("--white", arguments->white,
-                  "Of a measured BTF: the number that a white diffuse surface facing the light has "
-                  "in its pictures")
-      ->check(CLI::PositiveNumber)
+  addNumber(*app, "--white", arguments->white, {1e-6, 1e6},
+            "Of a measured BTF: the number that a white diffuse surface facing the light has "
+            "in its pictures")
       ->option_text("NUMBER")
       ->capture_default_str()
       ->group(kPatch);
 
   const char* kRtt = "Radiance transfer texture";
   app->add_option("--positions", arguments->positions, "Samples of the patch along x and y")
-      ->check(parses(parseSize))
+      ->check(parses(sizesUpTo(kMostPositions)))
       ->option_text("WxH")
       ->capture_default_str()
       ->group(kRtt);
-  app->add_option("--views", options.views,
-                  "Views a side, over the hemisphere; 1: no dependence on the view")
-      ->check(CLI::Range(1, 32))
+  addNumber(*app, "--views", options.views, {1, 32},
+            "Views a side, over the hemisphere; 1: no dependence on the view")
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);
-  app->add_option("--bands", options.bands, "Bands of the light, 1 to 10")
-      ->check(CLI::Range(1, 10))
+  addNumber(*app, "--bands", options.bands, {1, 10}, "Bands of the light, 1 to 10")
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);
-  app->add_option("--bounces", options.bounces, "Bounces of light inside the patch")
-      ->check(CLI::Range(0, 64))
+  addNumber(*app, "--bounces", options.bounces, {0, 64}, "Bounces of light inside the patch")
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);
@@ -312,26 +333,24 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
             "images under directional lights, as in the paper")
       ->option_text("NAME")
       ->group(kRtt);
-  app->add_option("--directions", options.directions,
-                  "Directions over the whole sphere, from every point seen. Twice as many: twice "
-                  "the time, and a smaller error")
-      ->check(CLI::Range(16, 16384))
+  addNumber(*app, "--directions", options.directions, {16, 16384},
+            "Directions over the whole sphere, from every point seen. Twice as many: twice "
+            "the time, and a smaller error")
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);
   app->add_option("--lights", arguments->lights,
                   "Of --method images and measured BTFs: polar × azimuthal directional lights")
-      ->check(parses(parseSize))
+      ->check(parses(sizesUpTo(kMostLights)))
       ->option_text("PxA")
       ->capture_default_str()
       ->group(kRtt);
-  app->add_option("--supersample", options.supersample, "Samples of a position, a side")
-      ->check(CLI::Range(1, 8))
+  addNumber(*app, "--supersample", options.supersample, {1, 8}, "Samples of a position, a side")
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);
-  app->add_option("--seed", options.seed,
-                  "Turns the directions, and draws another stucco or plaster")
+  addNumber(*app, "--seed", options.seed, kSeeds,
+            "Turns the directions, and draws another stucco or plaster")
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);
@@ -350,6 +369,7 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
   app->add_option("--patch", arguments->patchPath, "The patch's geometry, as a mesh")
       ->option_text("FILE.glb")
       ->group("Output");
+  arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runRtt(*arguments, console); }};
 }

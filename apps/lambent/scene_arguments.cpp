@@ -7,6 +7,7 @@
 #include "apps/lambent/arguments.h"
 #include "lambent/asset/asset.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/scene_io/load.h"
 
 namespace lambent::tool {
 
@@ -49,19 +50,6 @@ void addGround(scene::Scene& scene) {
 
 }  // namespace
 
-void addLoadOptions(CLI::App& app, scene_io::LoadOptions& options) {
-  app.add_flag("--allow-outside", options.allowOutside,
-               "Read the buffers, pictures and material libraries that a scene names wherever they "
-               "lie, not only in its folder and below: for scenes that you trust")
-      ->group("Reading");
-  app.add_option("--memory-limit", options.memoryLimit,
-                 "The most that the scene's textures and geometry may take in memory, such as "
-                 "500MiB or 16GiB (default: as much as a file of its size can need, at most 6 GiB)")
-      ->transform(CLI::AsSizeValue(false))
-      ->option_text("SIZE")
-      ->group("Reading");
-}
-
 void SceneArguments::addTo(CLI::App& app) {
   app.add_option("SCENE", path, "The scene: .glb, .gltf, .obj or .ply")->required();
   addChoice(app, "--material", material,
@@ -71,29 +59,21 @@ void SceneArguments::addTo(CLI::App& app) {
             "Make every surface diffuse, glossy or mirror, whatever the file says")
       ->option_text("KIND")
       ->group("Material");
-  addParsed(app, "--albedo", albedo, parseRgb,
+  addParsed(app, "--albedo", albedo, parseReflectance,
             "Reflectance of every surface, linear, 0 to 1 per channel. Textures still multiply it")
-      ->check([](const std::string& text) -> std::string {
-        const Result<Rgb> rgb = parseRgb(text);
-        if (rgb && (rgb->minCoeff() < 0.0f || rgb->maxCoeff() > 1.0f))
-          return "a reflectance lies between 0 and 1: a surface cannot send out more light than "
-                 "it gets";
-        return "";
-      })
       ->option_text("R,G,B")
       ->group("Material");
-  app.add_option("--lobe", lobeExponent,
-                 "Exponent of every glossy lobe: 4 is satin, 64 is polished")
-      ->check(CLI::Range(0.0, 1e5))
+  addNumber(app, "--lobe", lobeExponent, kLobeExponents,
+            "Exponent of every glossy lobe: 4 is satin, 64 is polished")
       ->option_text("EXPONENT")
       ->group("Material");
   app.add_flag("--ground", ground,
                "Put the scene on a grey floor, 1.6 times as wide, that takes shadows and light")
       ->group("Material");
-  addLoadOptions(app, loading);
+  reading.addTo(app);
 }
 
-Result<scene::Scene> SceneArguments::load(Console& console) const {
+Result<scene::Scene> SceneArguments::load(Console& console, NamedFiles& files) const {
   scene::Scene scene;
   bool baked = false;
   if (extensionOf(path) == ".glb") {
@@ -101,14 +81,18 @@ Result<scene::Scene> SceneArguments::load(Console& console) const {
     baked = isAsset && *isAsset;  // what cannot be read is the loader's to explain
   }
   if (baked) {
-    auto asset = console.stage("load", [&] { return asset::read(path); });
+    files.readsLinksOf("SCENE", path);
+    if (Status distinct = files.check(); !distinct) return distinct.error();
+    auto asset = console.stage("load", [&] { return asset::read(path, reading.forAsset()); });
     if (!asset) return asset.error();
     scene = std::move(asset->scene);
   } else {
-    auto loaded = console.stage("load", [&] { return scene_io::load(path, loading); });
+    auto loaded = console.stage("load", [&] { return scene_io::load(path, reading.forScene()); });
     if (!loaded) return loaded.error();
     console.report(loaded->findings);
     scene = std::move(loaded->scene);
+    files.readsFilesOf("SCENE", loaded->linkedFiles);
+    if (Status distinct = files.check(); !distinct) return distinct.error();
   }
   for (scene::Material& each : scene.materials) overrideMaterial(*this, each);
   if (ground) addGround(scene);

@@ -6,29 +6,28 @@
 #include <string>
 
 #include "apps/lambent/console.h"
+#include "apps/lambent/named_files.h"
+#include "apps/lambent/reading_arguments.h"
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
-#include "lambent/scene_io/load.h"
 
 namespace lambent::tool {
 
 enum class MaterialKind { Diffuse, Glossy, Mirror };
-
-/// --allow-outside and --memory-limit.
-void addLoadOptions(CLI::App& app, scene_io::LoadOptions& options);
 
 struct SceneArguments {
   std::filesystem::path path;
   std::optional<MaterialKind> material;  ///< none: as the file says
   std::optional<Rgb> albedo;
   std::optional<double> lobeExponent;
-  bool ground = false;  ///< a grey floor under the scene
-  scene_io::LoadOptions loading;
+  bool ground = false;       ///< a grey floor under the scene
+  ReadingArguments reading;  ///< for all files of the command
 
   void addTo(CLI::App& app);
   /// Reads the scene (or the scene inside a baked asset) and reports what was odd in it.
-  Result<scene::Scene> load(Console& console) const;
+  /// `files` gets to know what the scene names, and is checked again.
+  Result<scene::Scene> load(Console& console, NamedFiles& files) const;
 };
 
 }  // namespace lambent::tool

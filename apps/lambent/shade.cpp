@@ -11,6 +11,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
+#include "apps/lambent/named_files.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/showing_arguments.h"
 #include "apps/lambent/verbs.h"
@@ -26,6 +27,7 @@ struct Arguments {
   LightArguments light;
   std::optional<Vec3> eye;
   ShowingArguments showing;
+  ReadingArguments reading;
 };
 
 constexpr std::string_view kExamples = R"(
@@ -39,11 +41,15 @@ Examples:
 )";
 
 Status runShade(const Arguments& arguments, Console& console) {
-  Status writable = checkOutput(arguments.output, {".ply", ".csv"}, arguments.asset);
-  if (!writable) return writable;
-  const auto asset = console.stage("load", [&] { return asset::read(arguments.asset); });
+  NamedFiles files;
+  files.writes("--output", arguments.output, {".ply", ".csv"});
+  files.readsAsset("ASSET", arguments.asset);
+  files.readsLight("--light", arguments.light.source);
+  if (Status distinct = files.check(); !distinct) return distinct;
+  const auto asset = console.stage(
+      "load", [&] { return asset::read(arguments.asset, arguments.reading.forAsset()); });
   if (!asset) return asset.error();
-  const auto environment = arguments.light.environment(console);
+  const auto environment = arguments.light.environment(arguments.reading, console);
   if (!environment) return environment.error();
   const auto light = arguments.light.coefficients(*environment, asset->transfer.bands, console);
   if (!light) return light.error();
@@ -72,13 +78,12 @@ Status runShade(const Arguments& arguments, Console& console) {
   for (const ShadedReceiver& receiver : receivers) sum += receiver.radiance.cast<double>();
   const Rgb mean =
       receivers.empty() ? Rgb(Rgb::Zero()) : Rgb((sum / double(receivers.size())).cast<float>());
-  console.finish({{"output", arguments.output.string()},
-                  {"receivers", receivers.size()},
-                  {"mean_radiance", asJson(mean)}},
-                 fmt::format("{}: {} receivers, mean exit radiance {:.5g} {:.5g} {:.5g}\n",
-                             arguments.output.string(), formatCount(receivers.size()), mean[0],
-                             mean[1], mean[2]));
-  return Status::ok();
+  return console.finish({{"output", arguments.output.string()},
+                         {"receivers", receivers.size()},
+                         {"mean_radiance", asJson(mean)}},
+                        fmt::format("{}: {} receivers, mean exit radiance {:.5g} {:.5g} {:.5g}\n",
+                                    arguments.output.string(), formatCount(receivers.size()),
+                                    mean[0], mean[1], mean[2]));
 }
 
 }  // namespace
@@ -97,13 +102,14 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
                   "Columns x,y,z,nx,ny,nz,r,g,b in world space, .ply (binary) or .csv")
       ->option_text("OUT.ply|OUT.csv")
       ->required();
-  addParsed(*app, "--eye", arguments->eye, parseTriple,
+  addParsed(*app, "--eye", arguments->eye, parsePoint,
             "Where the viewer stands. Without it every receiver is seen along its normal")
       ->option_text("X,Y,Z")
       ->group("View");
   arguments->showing.addLobeTo(*app, "View");
   arguments->showing.addTo(*app);
   arguments->light.addWindowTo(*app);
+  arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runShade(*arguments, console); }};
 }

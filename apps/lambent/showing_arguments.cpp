@@ -6,8 +6,8 @@
 namespace lambent::tool {
 
 void ShowingArguments::addLobeTo(CLI::App& app, const char* group) {
-  app.add_option("--lobe", lobeExponent, "Exponent of glossy lobes instead of the baked material's")
-      ->check(CLI::Range(0.0, 1e5))
+  addNumber(app, "--lobe", lobeExponent, kLobeExponents,
+            "Exponent of glossy lobes instead of the baked material's")
       ->option_text("EXPONENT")
       ->group(group);
 }

@@ -41,8 +41,9 @@ Result<view::ViewState> StateArguments::read(const CLI::App& app, const LightArg
   return state;
 }
 
-Result<Shot> shotOf(const view::ViewState& state, const ViewArguments& view,
-                    const scene::Scene& scene, int bands, Console& console) {
+Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
+                    const ShotOptions& options, Console& console) {
+  const ViewArguments& view = options.view;
   scene::Camera camera;
   if (view.camera.empty()) {
     camera = view::worldCamera(state, scene, float(view.size.width) / float(view.size.height));
@@ -51,13 +52,16 @@ Result<Shot> shotOf(const view::ViewState& state, const ViewArguments& view,
     if (!named) return named.error();
     camera = *named;
   }
-  const auto parsed =
-      console.stage("light", [&] { return sources::parseSource(state.environment); });
+  const auto parsed = console.stage("light", [&] {
+    return sources::parseSource(state.environment, options.reading.forSource());
+  });
   if (!parsed) return parsed.error();
+  console.report(parsed->findings);
   const light::Environment& environment = parsed->value;
   return Shot{
       view::assetEnvironment(state, environment),
-      console.stage("project", [&] { return view::StateLight(environment, bands).asset(state); }),
+      console.stage("project",
+                    [&] { return view::StateLight(environment, options.bands).asset(state); }),
       view::assetCamera(state, camera)};
 }
 

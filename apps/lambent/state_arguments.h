@@ -33,8 +33,12 @@ struct Shot {
   scene::Camera camera;
 };
 
-/// `bands`: of the light. A camera that was named on the command line wins over the state's.
-Result<Shot> shotOf(const view::ViewState& state, const ViewArguments& view,
-                    const scene::Scene& scene, int bands, Console& console);
+struct ShotOptions {
+  const ViewArguments& view;  ///< a camera that is named there wins over the state's
+  int bands;                  ///< of the light
+  const ReadingArguments& reading;
+};
+Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
+                    const ShotOptions& options, Console& console);
 
 }  // namespace lambent::tool

@@ -9,6 +9,7 @@
 #include "apps/lambent/atlas_picture.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
+#include "apps/lambent/named_files.h"
 #include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
@@ -28,7 +29,7 @@ struct Arguments {
   TransferArguments transfer;
   std::filesystem::path rtt, output, atlasPicture;
   std::vector<std::string> meshes;
-  std::string tiles;
+  std::optional<Size> tiles;
   bi_scale::SpreadOptions options;
   std::optional<Vec3> direction;
 };
@@ -111,28 +112,28 @@ Json asJson(const bi_scale::SpreadReport& r) {
 }
 
 Status run(Arguments arguments, Console& console) {
-  Status writable = checkOutput(arguments.output, {".glb"}, arguments.scene.path);
-  if (!writable) return writable;
+  NamedFiles files;
+  files.writes("--output", arguments.output, {".glb"});
+  files.writes("--atlas-picture", arguments.atlasPicture, {".png"});
+  files.reads("SCENE", arguments.scene.path);
+  files.reads("--rtt", arguments.rtt);
+  if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
-  if (!arguments.atlasPicture.empty()) {
-    writable = checkOutput(arguments.atlasPicture, {".png"}, arguments.scene.path);
-    if (!writable) return writable;
-  }
-  auto rtt = console.stage("read RTT", [&] { return asset::readRtt(arguments.rtt); });
+  auto rtt = console.stage("read RTT", [&] {
+    return asset::readRtt(arguments.rtt, arguments.scene.reading.forAsset());
+  });
   if (!rtt) return rtt.error();
-  auto scene = arguments.scene.load(console);
+  auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
 
   bi_scale::SpreadOptions& options = arguments.options;
   auto meshes = chosenMeshes(arguments, *scene);
   if (!meshes) return meshes.error();
   options.meshes = *meshes;
-  if (!arguments.tiles.empty()) {
+  if (arguments.tiles) {
     if (options.placement != bi_scale::Placement::OwnUvs)
       return badUsage("--tiles says how often UVs repeat the patch: it goes with --map uv");
-    const Result<Size> tiles = parseSize(arguments.tiles);
-    if (!tiles) return tiles.error();
-    options.tiles = Vec2(float(tiles->width), float(tiles->height));
+    options.tiles = Vec2(float(arguments.tiles->width), float(arguments.tiles->height));
   }
   options.direction = arguments.direction;
   options.transfer = arguments.transfer.chosen(console);
@@ -171,15 +172,14 @@ Status run(Arguments arguments, Console& console) {
     reportsJson.push_back(asJson(report));
   }
   const Description transfer = describe(spread.asset);
-  console.finish({{"output", arguments.output.string()},
-                  {"bytes", bytes},
-                  {"seconds", seconds},
-                  {"surfaces", reportsJson},
-                  {"transfer", transfer.json}},
-                 fmt::format("{}: {}\n{}{}{} in all\n{}", arguments.output.string(),
-                             formatBytes(double(bytes)), reports, transfer.text,
-                             formatSeconds(seconds), times));
-  return Status::ok();
+  return console.finish({{"output", arguments.output.string()},
+                         {"bytes", bytes},
+                         {"seconds", seconds},
+                         {"surfaces", reportsJson},
+                         {"transfer", transfer.json}},
+                        fmt::format("{}: {}\n{}{}{} in all\n{}", arguments.output.string(),
+                                    formatBytes(double(bytes)), reports, transfer.text,
+                                    formatSeconds(seconds), times));
 }
 
 }  // namespace
@@ -198,10 +198,9 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
   app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
       ->option_text("ASSET.glb")
       ->required();
-  app->add_option("--patch-width", options.patchWidth,
-                  "How much of the surface the patch's width covers, in the model's units; 0: "
-                  "about 200 patches over the whole surface, or as many as --vertices can show")
-      ->check(CLI::NonNegativeNumber)
+  addNumber(*app, "--patch-width", options.patchWidth, {0.0, 1e6},
+            "How much of the surface the patch's width covers, in the model's units; 0: "
+            "about 200 patches over the whole surface, or as many as --vertices can show")
       ->option_text("LENGTH")
       ->capture_default_str()
       ->group("Placement");
@@ -212,19 +211,18 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       "the patch")
       ->option_text("KIND")
       ->group("Placement");
-  app->add_option("--tiles", arguments->tiles,
-                  "With --map uv: how often the patch repeats along u and v, as in 8x4")
+  addParsed(*app, "--tiles", arguments->tiles, sizesUpTo(32768),
+            "With --map uv: how often the patch repeats along u and v, as in 8x4")
       ->option_text("UxV")
       ->group("Placement");
-  addParsed(*app, "--direction", arguments->direction, parseTriple,
+  addParsed(*app, "--direction", arguments->direction, parseDirection,
             "Steers the patch: its +x follows this direction in the world where the surface lets "
             "it. Without it the field is as smooth as can be")
       ->option_text("X,Y,Z")
       ->group("Placement");
-  app->add_option("--randomness", options.randomness,
-                  "0: repeat the patch wherever the surface lets it, right for a weave; 1: scatter "
-                  "it about. Without it: what the patch bears")
-      ->check(CLI::Range(0.0, 1.0))
+  addNumber(*app, "--randomness", options.randomness, {0.0, 1.0},
+            "0: repeat the patch wherever the surface lets it, right for a weave; 1: scatter "
+            "it about. Without it: what the patch bears")
       ->option_text("0..1")
       ->group("Placement");
   app->add_option("--mesh", arguments->meshes,
@@ -232,26 +230,22 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
                   "Without it: all but mirrors and the --ground")
       ->option_text("NAME")
       ->group("Placement");
-  app->add_option("--vertices", options.mesoVertices,
-                  "Vertices of the mesh that synthesis runs on; 0: one for each position of the "
-                  "patch, to 960,000")
-      ->check(CLI::Range(0, 16000000))
+  addNumber(*app, "--vertices", options.mesoVertices, {0, 16000000},
+            "Vertices of the mesh that synthesis runs on; 0: one for each position of the "
+            "patch, to 960,000")
       ->option_text("N")
       ->capture_default_str()
       ->group("Placement");
-  app->add_option("--map-size", options.atlas.size, "Texels a side of the id map")
-      ->check(CLI::Range(64, 16384))
+  addNumber(*app, "--map-size", options.atlas.size, {64, 16384}, "Texels a side of the id map")
       ->option_text("N")
       ->capture_default_str()
       ->group("Atlas");
-  app->add_option("--gutter", options.atlas.gutter, "Texels at least between charts")
-      ->check(CLI::Range(1, 64))
+  addNumber(*app, "--gutter", options.atlas.gutter, {1, 64}, "Texels at least between charts")
       ->option_text("N")
       ->capture_default_str()
       ->group("Atlas");
-  app->add_option("--stretch", options.atlas.maximumStretch,
-                  "L2 stretch above which a chart is cut in two; 1 is none")
-      ->check(CLI::Range(1.01, 100.0))
+  addNumber(*app, "--stretch", options.atlas.maximumStretch, {1.01, 100.0},
+            "L2 stretch above which a chart is cut in two; 1 is none")
       ->option_text("FACTOR")
       ->capture_default_str()
       ->group("Atlas");

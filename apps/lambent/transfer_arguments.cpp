@@ -20,32 +20,30 @@ void TransferArguments::addTo(CLI::App& app) {
                "Keep what is shadowed alone beside what is interreflected, so that 'render "
                "--transfer shadowed' and the viewers can show either. A larger asset")
       ->group("Transfer");
-  app.add_option("--directions", options.directions,
-                 "Directions over the whole sphere, the same for every receiver. Twice as many: "
-                 "twice the time, and a smaller error")
-      ->check(CLI::Range(16, 65536))
+  addNumber(app, "--directions", options.directions, {16, 65536},
+            "Directions over the whole sphere, the same for every receiver. Twice as many: "
+            "twice the time, and a smaller error")
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");
-  app.add_option("--bounces", options.bounces, "Bounces beyond the direct light, at most")
-      ->check(CLI::Range(0, 1000))
+  addNumber(app, "--bounces", options.bounces, {0, 1000},
+            "Bounces beyond the direct light, at most")
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");
-  app.add_option("--energy-threshold", options.energyThreshold,
-                 "Stop bouncing when a pass has less than this fraction of the direct light's "
-                 "energy, as in 0.001")
-      ->check(CLI::Range(0.0, 1.0))
+  addNumber(app, "--energy-threshold", options.energyThreshold, {0.0, 1.0},
+            "Stop bouncing when a pass has less than this fraction of the direct light's "
+            "energy, as in 0.001")
       ->option_text("FRACTION")
       ->capture_default_str()
       ->group("Transfer");
-  app.add_option("--seed", options.seed, "Turns the set of directions: two seeds err independently")
+  addNumber(app, "--seed", options.seed, kSeeds,
+            "Turns the set of directions: two seeds err independently")
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");
-  app.add_option("--hit-memory", options.hitMemory,
-                 "Memory for remembered hits, as in 2GB; what does not fit is cast again")
-      ->transform(CLI::AsSizeValue(false))
+  addParsed(app, "--hit-memory", options.hitMemory, parseBytes,
+            "Memory for remembered hits, as in 2GB; what does not fit is cast again")
       ->option_text("SIZE")
       ->default_str("3GiB")
       ->group("Output");

@@ -2,14 +2,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/help.h"
+#include "apps/lambent/named_files.h"
+#include "apps/lambent/reading_arguments.h"
+#include "apps/lambent/standard_streams.h"
 #include "apps/lambent/verbs.h"
 #include "apps/lambent/web_server.h"
 #include "apps/viewer/captured_light.h"
@@ -30,6 +33,7 @@ struct Arguments {
   bool hidden = false, noPanel = false;
   bool web = false, noBrowser = false;
   int port = 0;
+  ReadingArguments reading;
 };
 
 constexpr std::string_view kExamples = R"(
@@ -55,13 +59,36 @@ Result<viewer::Script> scriptFor(const std::filesystem::path& screenshot) {
                              "--screenshot");
 }
 
+/// What a script reads and writes. A file that it has written itself is not one that it needs: it
+/// may read it back, and write it anew.
+void addFilesOf(const viewer::Script& script, NamedFiles& files) {
+  using Use = viewer::ScriptFile::Use;
+  std::set<std::filesystem::path> made;
+  for (const viewer::ScriptFile& file : viewer::filesOf(script)) {
+    const std::string name = fmt::format("{}:{}", script.name, file.line);
+    if (file.use == Use::Written) files.writesLater(name, file.name);
+    if (file.use == Use::Written) made.insert(std::filesystem::path(file.name).lexically_normal());
+    if (made.contains(std::filesystem::path(file.name).lexically_normal())) continue;
+    if (file.use == Use::Asset) files.readsAsset(name, file.name);
+    if (file.use == Use::State) files.readsState(name, file.name);
+    if (file.use == Use::Source) files.readsLight(name, file.name);
+    if (file.use != Use::Any) continue;
+    files.readsAsset(name, file.name);
+    if (extensionOf(file.name) == ".json") files.readsState(name, file.name);
+  }
+}
+
 Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const Arguments& arguments,
-                                                             Console& console) {
+                                                             NamedFiles& files, Console& console) {
   if (arguments.surroundings.empty()) return std::unique_ptr<viewer::Surroundings>();
   if (arguments.surroundings == "demo")
     return std::unique_ptr<viewer::Surroundings>(new viewer::CapturedLight(arguments.lightSamples));
-  auto loaded = capture::loadMovingScene(arguments.surroundings);
+  const ReadingArguments& reading = arguments.reading;
+  auto loaded = capture::loadMovingScene(
+      arguments.surroundings,
+      {.allowOutside = reading.allowOutside, .memoryLimit = reading.memoryLimit});
   if (!loaded) return loaded.error();
+  files.readsFilesOf("--surroundings", loaded->linkedFiles);
   console.report(loaded->findings);
   return std::unique_ptr<viewer::Surroundings>(
       new viewer::CapturedLight(std::move(loaded->scene), arguments.lightSamples));
@@ -69,21 +96,29 @@ Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const Arguments& ar
 
 Status runView(const Arguments& arguments, Console& console) {
   if (arguments.web)
-    return serveViewer(arguments.asset, arguments.environments, arguments.port,
-                       !arguments.noBrowser, console);
+    return serveViewer(arguments.asset, arguments.environments, arguments.reading,
+                       {.port = arguments.port, .openBrowser = !arguments.noBrowser}, console);
   viewer::ViewerOptions options;
   options.asset = arguments.asset;
   options.environments = arguments.environments;
   options.state = arguments.state;
+  options.reading = arguments.reading.forAsset();
   options.window.size = {arguments.size.width, arguments.size.height};
   options.window.visible = !arguments.hidden;
   options.panel = !arguments.noPanel && arguments.screenshot.empty();
-  options.print = [](const std::string& line) {
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
+  Status told = Status::ok();
+  options.print = [&told](const std::string& line) {
+    if (Status status = print(line + '\n'); !status) told = status;
   };
+  NamedFiles files;
+  files.writes("--screenshot", arguments.screenshot, {".png"});
+  files.readsAsset("ASSET", arguments.asset);
+  for (const std::string& source : arguments.environments) files.readsLight("ENVIRONMENT", source);
+  files.readsState("--view", arguments.state);
+  if (arguments.surroundings != "demo") files.reads("--surroundings", arguments.surroundings);
+  files.reads("--script", arguments.script);
+  if (Status distinct = files.check(); !distinct) return distinct;
   if (!arguments.screenshot.empty()) {
-    if (Status s = checkOutput(arguments.screenshot, {".png"}, arguments.asset); !s) return s;
     auto script = scriptFor(arguments.screenshot);
     if (!script) return script.error();
     options.script = std::move(*script);
@@ -92,14 +127,17 @@ Status runView(const Arguments& arguments, Console& console) {
   if (!arguments.script.empty()) {
     auto script = viewer::readScript(arguments.script);
     if (!script) return script.error();
+    addFilesOf(*script, files);
     options.script = std::move(*script);
   }
-  auto surroundings = surroundingsOf(arguments, console);
+  auto surroundings = surroundingsOf(arguments, files, console);
   if (!surroundings) return surroundings.error();
+  if (Status distinct = files.check(); !distinct) return distinct;
   options.surroundings = std::move(*surroundings);
   if (Status s = viewer::view(std::move(options)); !s) return s;
+  if (!told) return told;
   if (!arguments.screenshot.empty())
-    console.finish(
+    return console.finish(
         {{"output", arguments.screenshot.string()}},
         fmt::format("{}: {}\n", arguments.screenshot.string(), formatSize(arguments.size)));
   return Status::ok();
@@ -121,7 +159,8 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
   app->add_option("--view", arguments->state, "A state that was saved in a viewer")
       ->option_text("STATE.json")
       ->group("View");
-  addParsed(*app, "--size", arguments->size, parseSize, "Size of the window (default: 1280x800)")
+  addParsed(*app, "--size", arguments->size, sizesUpTo(16384),
+            "Size of the window (default: 1280x800)")
       ->option_text("WIDTHxHEIGHT")
       ->group("View");
   app->add_flag("--no-panel", arguments->noPanel,
@@ -134,9 +173,8 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
              "is captured in every frame: a scene's file, or demo for some that move")
           ->option_text("SCENE|demo")
           ->group("View");
-  app->add_option("--light-samples", arguments->lightSamples,
-                  "At how many points of the asset that light is captured")
-      ->check(CLI::Range(1, 64))
+  addNumber(*app, "--light-samples", arguments->lightSamples, {1, 64},
+            "At how many points of the asset that light is captured")
       ->option_text("N")
       ->capture_default_str()
       ->needs(surroundings)
@@ -155,8 +193,7 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
   CLI::Option* web =
       app->add_flag("--web", arguments->web, "Serve a page on this machine instead of a window")
           ->group("Page");
-  app->add_option("--port", arguments->port, "Of the page; 0: any that is free")
-      ->check(CLI::Range(0, 65535))
+  addNumber(*app, "--port", arguments->port, {0, 65535}, "Of the page; 0: any that is free")
       ->option_text("N")
       ->capture_default_str()
       ->needs(web)
@@ -165,6 +202,7 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
       ->needs(web)
       ->group("Page");
   web->excludes(script)->excludes(screenshot)->excludes(surroundings);
+  arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runView(*arguments, console); }};
 }

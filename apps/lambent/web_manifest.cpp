@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 
 #include "apps/lambent/arguments.h"
 #include "lambent/asset/asset.h"
@@ -36,8 +38,9 @@ Status addPage(const fs::path& page, ServedFiles& files) {
 }
 
 /// A map of another kind than latitude and longitude, as an .exr in that.
-Result<std::string> resampled(const std::string& term, int height) {
-  const auto parsed = sources::parseSource(term);
+Result<std::string> resampled(const std::string& term, int height,
+                              const ReadingArguments& reading) {
+  const auto parsed = sources::parseSource(term, reading.forSource());
   if (!parsed) return parsed.error();
   image::Image map(2 * height, height);
   const image::MapShape shape{image::MapKind::LatLong, map.width, map.height};
@@ -45,16 +48,21 @@ Result<std::string> resampled(const std::string& term, int height) {
     for (int x = 0; x < map.width; ++x)
       map.at(x, y) =
           parsed->value.radiance(image::directionOf(shape, {x + 0.5, y + 0.5})->cast<float>());
-  const fs::path path = fs::temp_directory_path() / fmt::format("lambent-{}.exr", getpid());
-  if (const Status status = image::write(map, path); !status) return status.error();
-  auto bytes = readText(path);
+  // A folder of our own: a name that others can guess may already lead to some file.
+  std::string folder = (fs::temp_directory_path() / "lambent-XXXXXX").string();
+  if (!mkdtemp(folder.data()))
+    return failed(fmt::format("cannot make a folder {}: {}", folder, std::strerror(errno)));
+  const fs::path path = fs::path(folder) / "map.exr";
+  const Status status = image::write(map, path);
+  auto bytes = status ? readText(path) : Result<std::string>(status.error());
   std::error_code ignored;
-  fs::remove(path, ignored);
+  fs::remove_all(folder, ignored);
   return bytes;
 }
 
 /// Adds the files behind one SOURCE, and says under which names.
-Result<Json> addEnvironment(const std::string& source, std::size_t number, ServedFiles& files) {
+Result<Json> addEnvironment(const std::string& source, std::size_t number,
+                            const ReadingArguments& reading, ServedFiles& files) {
   constexpr int kResampledHeight = 1024;
   Json names = Json::object();
   const auto terms = sources::sourceTerms(source);
@@ -66,7 +74,7 @@ Result<Json> addEnvironment(const std::string& source, std::size_t number, Serve
     std::string name = stem + extensionOf(term);
     if (kind) {
       name = stem + ".exr";
-      const auto bytes = resampled(term, kResampledHeight);
+      const auto bytes = resampled(term, kResampledHeight, reading);
       if (!bytes) return bytes.error();
       files["/" + name] = *bytes;
     } else {
@@ -88,7 +96,8 @@ void putFirst(Json& list, Json entries) {
 }  // namespace
 
 Result<ServedFiles> filesToServe(const fs::path& page, const fs::path& asset,
-                                 std::span<const std::string> environments, Console& console) {
+                                 std::span<const std::string> environments,
+                                 const ReadingArguments& reading, Console& console) {
   ServedFiles files;
   if (const Status status = addPage(page, files); !status) return status.error();
   const auto own = readText(page / "manifest.json");
@@ -114,11 +123,12 @@ Result<ServedFiles> filesToServe(const fs::path& page, const fs::path& asset,
   for (std::size_t k = 0; k < environments.size(); ++k) {
     const auto light = console.stage("light", [&] {
       return sources::parseSource(environments[k],
-                                  {.notFinite = sources::SourceOptions::NotFinite::Repair});
+                                  {.notFinite = sources::SourceOptions::NotFinite::Repair,
+                                   .memoryLimit = reading.memoryLimit});
     });
     if (!light) return light.error();
     console.report(light->findings);
-    auto entry = addEnvironment(environments[k], k, files);
+    auto entry = addEnvironment(environments[k], k, reading, files);
     if (!entry) return entry.error();
     given.push_back(std::move(*entry));
   }

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "apps/lambent/console.h"
+#include "apps/lambent/reading_arguments.h"
 #include "lambent/report/result.h"
 
 namespace lambent::tool {
@@ -29,6 +30,7 @@ using ServedFiles = std::map<std::string, std::variant<std::filesystem::path, st
 /// sense.
 Result<ServedFiles> filesToServe(const std::filesystem::path& page,
                                  const std::filesystem::path& asset,
-                                 std::span<const std::string> environments, Console& console);
+                                 std::span<const std::string> environments,
+                                 const ReadingArguments& reading, Console& console);
 
 }  // namespace lambent::tool

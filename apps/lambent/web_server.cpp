@@ -27,6 +27,7 @@
 #include <thread>
 #include <vector>
 
+#include "apps/lambent/standard_streams.h"
 #include "apps/lambent/web_connections.h"
 #include "apps/lambent/web_manifest.h"
 
@@ -164,9 +165,18 @@ void openInBrowser(std::string url) {
   if (!set("DISPLAY") && !set("WAYLAND_DISPLAY")) return;
   std::string program = "xdg-open";
   char* arguments[] = {program.data(), url.data(), nullptr};
+  // Signals that are ignored here would be ignored there.
+  posix_spawnattr_t attributes;
+  if (posix_spawnattr_init(&attributes) != 0) return;
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t process;
   // A browser that does not open is no failure: the URL has been printed.
-  posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ);
+  posix_spawnp(&process, program.c_str(), nullptr, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
 }
 
 int wakePipe[2] = {-1, -1};
@@ -204,11 +214,12 @@ Result<fs::path> findViewerPage() {
   return page;
 }
 
-Status serveViewer(const fs::path& asset, std::span<const std::string> environments, int port,
-                   bool openBrowser, Console& console) {
+Status serveViewer(const fs::path& asset, std::span<const std::string> environments,
+                   const ReadingArguments& reading, const ServerOptions& options,
+                   Console& console) {
   const Result<fs::path> page = findViewerPage();
   if (!page) return page.error();
-  const Result<ServedFiles> files = filesToServe(*page, asset, environments, console);
+  const Result<ServedFiles> files = filesToServe(*page, asset, environments, reading, console);
   if (!files) return files.error();
 
   ConnectionServer server;
@@ -226,6 +237,7 @@ Status serveViewer(const fs::path& asset, std::span<const std::string> environme
   server.set_tcp_nodelay(true);
   server.set_payload_max_length(0);  // nothing is taken in
 
+  const int port = options.port;
   int bound = port;
   if (port == 0) bound = server.bind_to_any_port(kHost);
   if (bound <= 0 || (port != 0 && !server.bind_to_port(kHost, port)))
@@ -256,11 +268,13 @@ Status serveViewer(const fs::path& asset, std::span<const std::string> environme
   // stop() does nothing to a server that does not run yet.
   while (!server.is_running() && !over) std::this_thread::yield();
   const std::string url = fmt::format("http://{}:{}/", kHost, bound);
-  fmt::print("{}\n", url);
-  std::fflush(stdout);
-  console.note("viewer-served", url + " shows the asset; Ctrl-C ends it");
-  if (openBrowser) openInBrowser(url);
-  const Status ended = waitForEnd();
+  // A server that nobody can find is of no use.
+  Status ended = print(url + '\n');
+  if (ended) {
+    console.note("viewer-served", url + " shows the asset; Ctrl-C ends it");
+    if (options.openBrowser) openInBrowser(url);
+    ended = waitForEnd();
+  }
   server.stop();
   server.hangUp();
   listening.join();

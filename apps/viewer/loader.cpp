@@ -16,16 +16,18 @@ std::string lowerExtension(const std::filesystem::path& path) {
   return extension;
 }
 
-Result<Loaded> readEnvironment(const std::string& source) {
-  auto parsed =
-      sources::parseSource(source, {.notFinite = sources::SourceOptions::NotFinite::Repair});
+Result<Loaded> readEnvironment(const std::string& source, const asset::ReadOptions& reading) {
+  auto parsed = sources::parseSource(
+      source,
+      {.notFinite = sources::SourceOptions::NotFinite::Repair, .memoryLimit = reading.memoryLimit});
   if (!parsed) return parsed.error();
   return Loaded(LoadedEnvironment{source, std::move(parsed->value), std::move(parsed->findings)});
 }
 
 }  // namespace
 
-Result<LoadedAsset> readAsset(const std::filesystem::path& path) {
+Result<LoadedAsset> readAsset(const std::filesystem::path& path,
+                              const asset::ReadOptions& reading) {
   const std::string extension = lowerExtension(path);
   bool plain = extension == ".obj" || extension == ".ply";
   if (!plain) {
@@ -39,7 +41,7 @@ Result<LoadedAsset> readAsset(const std::filesystem::path& path) {
         fmt::format("{} is not baked. Bake it first: lambent bake {} -o {}-baked.glb",
                     path.filename().string(), path.string(), stem));
   }
-  auto read = asset::read(path);
+  auto read = asset::read(path, reading);
   if (!read) return read.error();
   return LoadedAsset{path, std::make_unique<asset::Asset>(std::move(*read))};
 }
@@ -48,6 +50,11 @@ Loader::Loader() : thread_([this](std::stop_token stop) { work(stop); }) {}
 
 Loader::~Loader() {
   thread_.request_stop();
+}
+
+void Loader::allow(const asset::ReadOptions& reading) {
+  const std::lock_guard lock(mutex_);
+  reading_ = reading;
 }
 
 void Loader::readAsset(std::filesystem::path path) {
@@ -65,21 +72,23 @@ void Loader::readEnvironment(std::string source) {
 void Loader::work(std::stop_token stop) {
   for (;;) {
     Request request;
+    asset::ReadOptions reading;
     {
       std::unique_lock lock(mutex_);
       if (!woken_.wait(lock, stop, [this] { return !requests_.empty(); })) return;
       request = requests_.front();
       requests_.pop_front();
       current_ = request;
+      reading = reading_;
       began_ = std::chrono::steady_clock::now();
     }
     Result<Loaded> result = report::failed("");
     try {
       if (request.asset) {
-        auto asset = viewer::readAsset(request.name);
+        auto asset = viewer::readAsset(request.name, reading);
         result = asset ? Result<Loaded>(Loaded(std::move(*asset))) : Result<Loaded>(asset.error());
       } else {
-        result = viewer::readEnvironment(request.name);
+        result = viewer::readEnvironment(request.name, reading);
       }
     } catch (const std::bad_alloc&) {
       result = report::failed(fmt::format("{}: not enough memory to read it", request.name));

@@ -12,7 +12,7 @@
 #include <thread>
 #include <variant>
 
-#include "lambent/asset/asset.h"
+#include "lambent/asset/read.h"
 #include "lambent/light/environment.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/result.h"
@@ -38,6 +38,8 @@ class Loader {
   Loader();
   ~Loader();  ///< waits for the file that is being read
 
+  /// What is read from now on may cost no more, and lie nowhere else.
+  void allow(const asset::ReadOptions& reading);
   void readAsset(std::filesystem::path path);
   void readEnvironment(std::string source);
 
@@ -57,6 +59,7 @@ class Loader {
 
   mutable std::mutex mutex_;
   std::condition_variable_any woken_;
+  asset::ReadOptions reading_;
   std::deque<Request> requests_;
   std::optional<Request> current_;
   std::chrono::steady_clock::time_point began_;
@@ -65,6 +68,7 @@ class Loader {
 };
 
 /// As the loader does it. A mesh that is not baked is BadInput with the command that bakes it.
-Result<LoadedAsset> readAsset(const std::filesystem::path& path);
+Result<LoadedAsset> readAsset(const std::filesystem::path& path,
+                              const asset::ReadOptions& reading = {});
 
 }  // namespace lambent::viewer

@@ -142,6 +142,23 @@ Result<Script> parseScript(std::string_view text, const std::string& name) {
   return script;
 }
 
+std::vector<ScriptFile> filesOf(const Script& script) {
+  using Use = ScriptFile::Use;
+  constexpr std::pair<std::string_view, Use> kUses[] = {
+      {"load", Use::Asset},         {"environment", Use::Source},
+      {"state", Use::State},        {"drop", Use::Any},
+      {"screenshot", Use::Written}, {"screenshot-window", Use::Written},
+      {"save-state", Use::Written}};
+  std::vector<ScriptFile> files;
+  for (const ScriptCommand& command : script.commands)
+    for (const auto& [word, use] : kUses) {
+      if (command.words[0] != word) continue;
+      const std::size_t end = use == Use::Any ? command.words.size() : 2;
+      for (std::size_t i = 1; i < end; ++i) files.push_back({command.line, use, command.words[i]});
+    }
+  return files;
+}
+
 Result<Script> readScript(const std::filesystem::path& path) {
   const auto bytes = file::readWhole(path);
   if (!bytes) return bytes.error();

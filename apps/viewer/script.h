@@ -28,6 +28,16 @@ struct Script {
 /// BadInput with the line, before anything is run: commands that are not known, arguments that are
 /// too few or too many, a `repeat` without `end`.
 Result<Script> parseScript(std::string_view text, const std::string& name);
+/// A file of a script. `drop` takes what a person might drop: an asset, a state or a SOURCE.
+struct ScriptFile {
+  enum class Use { Asset, Source, State, Any, Written };
+  int line = 0;
+  Use use = Use::Any;
+  std::string name;
+};
+/// All that a script names, in the sequence of its lines.
+std::vector<ScriptFile> filesOf(const Script& script);
+
 Result<Script> readScript(const std::filesystem::path& path);
 
 }  // namespace lambent::viewer

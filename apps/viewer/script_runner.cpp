@@ -19,13 +19,20 @@ namespace {
 
 using report::badInput;
 
-Result<double> number(const std::string& text) {
+/// Coordinates and whatever has no range of its own: beyond, the square of a float is none.
+constexpr double kMost = 1e15;
+/// Angles, and pictures' heights: what a float tells apart after the motion.
+constexpr double kFurthest = 1e6;
+
+Result<double> number(const std::string& text, double most = kMost) {
   double value = 0.0;
   const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(begin, end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value))
     return badInput(fmt::format("'{}' is not a number", text));
+  if (std::abs(value) > most)
+    return badInput(fmt::format("'{}' is not a number from {:g} to {:g}", text, -most, most));
   return value;
 }
 
@@ -37,10 +44,10 @@ Result<long> count(const std::string& text) {
 }
 
 /// Numbers from the word at `first` on.
-Result<std::vector<double>> numbers(const ScriptCommand& command, std::size_t first) {
+Result<std::vector<double>> numbers(const ScriptCommand& command, std::size_t first, double most) {
   std::vector<double> values;
   for (std::size_t i = first; i < command.words.size(); ++i) {
-    const Result<double> value = number(command.words[i]);
+    const Result<double> value = number(command.words[i], most);
     if (!value) return value.error();
     values.push_back(*value);
   }
@@ -96,7 +103,7 @@ Result<Gesture> gestureOf(const ScriptCommand& command) {
                                                           {"object", Kind::TurnObject},
                                                           {"move", Kind::MoveObject}};
   const bool wheel = command.words[0] == "wheel";
-  const auto given = numbers(command, wheel ? 1 : 2);
+  const auto given = numbers(command, wheel ? 1 : 2, kFurthest);
   if (!given) return given.error();
   if (wheel) {
     const Vec2 at = Eigen::Vector2d((*given)[1], (*given)[2]).cast<float>();
@@ -235,6 +242,8 @@ Status ScriptRunner::set(const std::string& name, const std::string& value, Scen
     return badInput(fmt::format("'{}' cannot be set; 'lambent view --help' lists what can", name));
   const Result<double> given = number(value);
   if (!given) return given.error();
+  if (name == "exposure" && std::abs(*given) > 60.0)
+    return badInput(fmt::format("the exposure is {}; it must be from -60 to 60", value));
   if (name == "exposure") state.exposure = *given;
   if (name == "lobe" && !(*given >= 0.0 && *given <= 1e5))
     return badInput(fmt::format("the lobe's exponent is {}; it must be from 0 to 100000", value));
@@ -270,7 +279,7 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
   if (name == "set") return done(set(word(1), word(2), scene));
   if (name == "frame") session.frameAll(scene.layout.picture);
   if (name == "orbit" || name == "pan" || name == "zoom" || name == "move") {
-    const auto given = numbers(command, 1);
+    const auto given = numbers(command, 1, name == "move" ? kMost : kFurthest);
     if (!given) return given.error();
     if (name == "move") {
       session.state.objectTranslation += Vec3d((*given)[0], (*given)[1], (*given)[2]).cast<float>();
@@ -287,7 +296,7 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
   }
   if (name == "turn") {
     const auto about = axis(word(2));
-    const auto degrees = number(word(3));
+    const auto degrees = number(word(3), kFurthest);
     if (!about) return about.error();
     if (!degrees) return degrees.error();
     const double radians = *degrees * kPi / 180.0;
@@ -299,7 +308,8 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
       return badInput(fmt::format("'{}' does not turn: object or environment", word(1)));
   }
   if (name == "disc") {
-    const auto azimuth = number(word(1)), elevation = number(word(2)), diameter = number(word(3));
+    const auto azimuth = number(word(1), kFurthest), elevation = number(word(2)),
+               diameter = number(word(3));
     const auto radiance = triple(word(4));
     for (const auto* each : {&azimuth, &elevation, &diameter})
       if (!*each) return each->error();

@@ -32,6 +32,8 @@ class Session {
   /// SOURCEs to switch between; the shown one is state.environment.
   std::vector<std::string> environments;
 
+  /// Of all files that are opened from now on.
+  void allow(const asset::ReadOptions& reading) { loader_.allow(reading); }
   /// All of these read in the background; what is shown stays until the file is there, and for good
   /// if something is wrong with it.
   void openAsset(const std::filesystem::path& path);

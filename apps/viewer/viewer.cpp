@@ -147,6 +147,7 @@ Status Viewer::run() {
 Status openFirst(Viewer& viewer, const ViewerOptions& options) {
   Session& session = viewer.session;
   session.environments = options.environments;
+  session.allow(options.reading);
   if (!options.environments.empty()) session.openEnvironment(options.environments.front());
   if (!options.asset.empty()) session.openAsset(options.asset);
   // The state last: it is meant for this asset.

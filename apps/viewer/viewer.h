@@ -11,6 +11,7 @@
 #include "apps/viewer/gl_window.h"
 #include "apps/viewer/script.h"
 #include "apps/viewer/surroundings.h"
+#include "lambent/asset/read.h"
 #include "lambent/report/result.h"
 
 namespace lambent::viewer {
@@ -19,6 +20,7 @@ struct ViewerOptions {
   std::filesystem::path asset;            ///< empty: an empty stage
   std::vector<std::string> environments;  ///< SOURCEs; the first is shown. None: a plain white sky
   std::filesystem::path state;            ///< a saved view, or empty
+  asset::ReadOptions reading;             ///< of these, and of what is opened later
   WindowOptions window;
   bool panel = true;
   std::optional<Script> script;  ///< runs it, and ends with it

@@ -150,6 +150,13 @@ def glb(document: dict, buffer: bytes) -> bytes:
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
+def glb_json(document: dict) -> bytes:
+    """A .glb without a chunk of its own for the buffer."""
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+
+
 def png(width: int, height: int, pixel) -> bytes:
     """8-bit RGB; pixel(x, y) → (r, g, b)."""
     rows = b"".join(b"\0" + bytes(c for x in range(width) for c in pixel(x, y))

@@ -158,6 +158,12 @@ class Hostile(ToolTest):
                          says=["exfil.gltf", "buffer 1", "/etc/passwd", "--allow-outside"])
         self.assertFalse(self.path("x.glb").exists())
 
+    def test_a_file_of_the_folder_that_is_not_there(self):
+        document, buffer = gltf_parts(*ball())
+        document["buffers"][0]["uri"] = "gone.bin"
+        self.write("ball.gltf", json.dumps(document))
+        self.run_cheaply("info", "ball.gltf", says=["gone.bin", "which does not exist"])
+
     def test_a_file_outside_of_the_folder_that_is_allowed(self):
         document, buffer = gltf_parts(*ball())
         document["buffers"][0]["uri"] = "../ball.bin"
@@ -176,6 +182,87 @@ class Hostile(ToolTest):
         document["meshes"] = [{"primitives": [primitive] * 5000}]
         self.write("a.glb", glb(document, buffer))
         self.run_cheaply("info", "a.glb", says=["a.glb: node 0", "over the limit"])
+
+    def test_a_light_much_larger_than_its_file(self):
+        self.bake()
+        self.write("l.png", black_png(16384, 16384))
+        self.write("state.json", json.dumps({"lambent": "view", "environment": {"source": "l.png"}}))
+        words = ["l.png", "16384×16384", "over the limit of", "--memory-limit"]
+        self.run_cheaply("light", "l.png", "-o", "x.json", says=words)
+        self.run_cheaply("render", "ball.glb", "--view", "state.json", "-o", "x.png", says=words)
+        self.run_cheaply("reference", "ball.obj", "--light", "l.png", "-o", "x.png", says=words)
+        self.run_cheaply("compare", "l.png", "l.png", says=words)
+        self.run_cheaply("rtt", "l.png", "-o", "x.rtt", says=words)
+
+    def test_one_picture_for_many_directions(self):
+        self.write("b.png", black_png(4096, 4096))
+        table = ["file,view_theta,view_phi,light_theta,light_phi"]
+        table += [f"b.png,0,0,{10 + i % 70},{i // 70}" for i in range(700)]
+        self.write("btf.csv", "\n".join(table) + "\n")
+        self.run_cheaply("rtt", "btf.csv", "-o", "x.rtt", "--positions", "4", "--views", 1,
+                         says=["btf.csv, line", "b.png", "gone through", "--memory-limit"])
+
+    def test_many_buffers_of_one_file(self):
+        # The transfer of each mesh lies in a buffer of its own, and all of these are one file.
+        self.bake("ball.obj", "ball.glb", "--directions", 64, "--material", "glossy", "--bands", 7)
+        data = self.path("ball.glb").read_bytes()
+        length = struct.unpack_from("<I", data, 12)[0]
+        document, buffer = json.loads(data[20:20 + length]), data[28 + length:]
+        document["buffers"][0]["uri"] = "data.bin"
+        primitives = document["meshes"][0]["primitives"]
+        primitive = json.dumps(primitives[0])
+        for _ in range(60):
+            copy = json.loads(primitive)
+            matrices = copy["extensions"]["LAMBENT_radiance_transfer"]["matrices"]
+            accessor = dict(document["accessors"][matrices["accessor"]])
+            view = dict(document["bufferViews"][accessor["bufferView"]])
+            view["buffer"] = len(document["buffers"])
+            accessor["bufferView"] = len(document["bufferViews"])
+            matrices["accessor"] = len(document["accessors"])
+            document["buffers"].append(document["buffers"][0])
+            document["bufferViews"].append(view)
+            document["accessors"].append(accessor)
+            primitives.append(copy)
+        self.write("data.bin", buffer)
+        self.write("many.gltf", json.dumps(document))
+        shade = ("shade", "many.gltf", "--light", "uniform", "-o", "x.csv", "--memory-limit")
+        self.run_cheaply(*shade, "10MiB", says=["many.gltf", ".matrices.accessor: accessor ",
+                                                "over the limit of 10.0 MiB"])
+        self.run_cheaply(*shade, "40MiB", code=DONE)
+
+    def test_every_verb_takes_a_limit(self):
+        self.bake()
+        self.run_tool("rtt", "weave", "-o", "a.rtt", "--positions", "8", "--views", 1,
+                      "--directions", 16, "--bounces", 0)
+        self.run_tool("shade", "ball.glb", "--light", "uniform", "-o", "a.csv")
+        self.write("l.png", black_png(64, 32))
+        self.write("btf.csv", "file,view_theta,view_phi,light_theta,light_phi\n" +
+                   "".join(f"l.png,0,0,{i},0\n" for i in range(1, 10)))
+        lit = ("--light", "uniform", "-o")
+        by_l = ("--light", "l.png", "-o")
+        for arguments in (("light", "l.png", "-o", "x.json"),
+                          ("bake", "ball.obj", "-o", "x.glb"),
+                          ("bake", "ball.glb", "-o", "x.glb"),
+                          ("reference", "ball.glb", *lit, "x.exr"),
+                          ("reference", "ball.obj", *lit, "x.exr"),
+                          ("render", "ball.glb", *lit, "x.png"),
+                          ("shade", "ball.glb", *lit, "x.csv"),
+                          ("compare", "l.png", "l.png"),
+                          ("compare", "a.csv", "a.csv"),
+                          ("rtt", "l.png", "-o", "x.rtt"),
+                          ("rtt", "ball.obj", "-o", "x.rtt"),
+                          ("rtt", "btf.csv", "-o", "x.rtt"),
+                          ("synthesize", "ball.obj", "--rtt", "a.rtt", "-o", "x.glb"),
+                          ("view", "ball.glb", "--surroundings", "ball.obj"),
+                          ("info", "ball.glb"), ("info", "a.rtt"), ("info", "a.csv")):
+            self.run_cheaply(*arguments, "--memory-limit", "200",
+                             says=["limit of 200 bytes", "--memory-limit"])
+        for arguments in (("render", "ball.glb", *by_l, "x.png"),
+                          ("shade", "ball.glb", *by_l, "x.csv"),
+                          ("reference", "ball.obj", *by_l, "x.exr")):
+            self.write("l.png", black_png(1024, 512))
+            self.run_cheaply(*arguments, "--memory-limit", "1MiB",
+                             says=["l.png", "limit of 1.0 MiB", "--memory-limit"])
 
     def test_a_limit_of_ones_own(self):
         document, buffer = gltf_parts(*ball())

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from harness import TOOL, ToolTest, ball_obj
+from harness import TOOL, USAGE, ToolTest, ball_obj
 
 
 class Unwritable(ToolTest):
@@ -139,3 +139,67 @@ class Interrupted(ToolTest):
         self.interrupt(signal.SIGTERM, "reference", "ball.obj", "--light", "uniform", "-o", "a.exr",
                        "--spp", 1 << 20)
         self.assertEqual(os.listdir(self.dir), ["ball.obj"])
+
+
+class Telling(ToolTest):
+    """What is said may be lost; the work may not."""
+
+    BAKE = ("bake", "ball.obj", "-o", "a.glb", "--directions", "64")
+
+    def setUp(self):
+        super().setUp()
+        self.write("ball.obj", ball_obj())
+
+    def shell(self, command, *args):
+        """Runs "$@" as `command` says, with the tool and its arguments for "$@"."""
+        return subprocess.run(["bash", "-c", command, "bash", TOOL, *map(str, args)], cwd=self.dir,
+                              text=True, capture_output=True, timeout=280)
+
+    def kept(self, *args):
+        """The asset is whole: the same as of a run that could say all."""
+        self.run_tool(*self.BAKE[:3], "b.glb", *self.BAKE[4:])
+        self.assertEqual(self.path("a.glb").read_bytes(), self.path("b.glb").read_bytes())
+        self.assertEqual(sorted(os.listdir(self.dir)), ["a.glb", "b.glb", "ball.obj"])
+        self.path("a.glb").unlink()
+
+    def test_an_unwritable_standard_error_costs_nothing(self):
+        # A scene with something to warn of.
+        self.write("ball.obj", ball_obj() + "f 1//1 1//1 2//2\n")
+        for stream in ("2>/dev/full", "2>&-", "2> >(true)"):
+            for options in ((), ("--quiet",), ("--json",)):
+                result = self.shell(f'"$@" {stream}', *self.BAKE, *options)
+                self.assertEqual(result.returncode, 0, stream)
+                self.assertIn("a.glb", result.stdout)
+                self.kept()
+
+    def test_an_unwritable_standard_error_keeps_the_exit_code(self):
+        for stream in ("2>/dev/full", "2>&-"):
+            self.assertEqual(self.shell(f'"$@" {stream}', "bake").returncode, USAGE)
+            self.assertEqual(self.shell(f'"$@" {stream}', "info", "no.glb").returncode, 3)
+
+    def test_an_unwritable_standard_output_is_a_failure_and_keeps_the_file(self):
+        for stream, reason in ((">/dev/full", "No space left"), (">&-", "Bad file"),
+                               ("> >(exec <&-; sleep 1)", "")):
+            for options in ((), ("--json",)):
+                result = self.shell(f'"$@" {stream}', *self.BAKE, *options)
+                self.assertEqual(result.returncode, 1, stream)
+                self.assertIn("standard output", result.stderr)
+                self.assertIn(reason, result.stderr)
+                self.kept()
+
+    def test_nothing_can_be_said_at_all(self):
+        for streams in (">&- 2>&-", "<&- >&- 2>&-", ">/dev/full 2>/dev/full"):
+            self.assertEqual(self.shell(f'"$@" {streams}', *self.BAKE).returncode, 1)
+            self.kept()
+
+    def test_a_pipe_that_nobody_reads(self):
+        result = self.shell('"$@" | head -c 0; exit ${PIPESTATUS[0]}', *self.BAKE)
+        self.assertIn(result.returncode, (0, 1))  # head may take it before it ends
+        self.kept()
+
+    def test_results_without_a_file(self):
+        for args in (("info", "ball.obj"), ("info", "ball.obj", "--json"), ("--help",),
+                     ("--version",), ("bake", "--help"), ()):
+            result = self.shell('"$@" >/dev/full', *args)
+            self.assertEqual(result.returncode, 1, args)
+            self.assertIn("standard output", result.stderr)

@@ -339,6 +339,11 @@ class View(ToolTest):
                 ("end", BAD_INPUT, "script.txt:1: this 'end' has no 'repeat'"),
                 ('load "ball.glb', BAD_INPUT, "script.txt:1: a quotation mark is left open"),
                 ("wait 1\norbit a 1", BAD_INPUT, "script.txt:2: 'a' is not a number"),
+                ("zoom nan", BAD_INPUT, "script.txt:1: 'nan' is not a number"),
+                ("orbit 0 1e7", BAD_INPUT, "script.txt:1: '1e7' is not a number from"),
+                ("move 1e16 0 0", BAD_INPUT, "script.txt:1: '1e16' is not a number from"),
+                ("disc 0 0 9 1e39", BAD_INPUT, "script.txt:1: '1e39' is not a number from"),
+                ("set exposure 61", BAD_INPUT, "script.txt:1: the exposure is 61; it must be"),
                 ("set brightness 1", BAD_INPUT, "script.txt:1: 'brightness' cannot be set"),
                 ("key Shift+Z", BAD_INPUT, "script.txt:1: no key 'Shift+Z'"),
                 ("load gone.glb\nwait 2", BAD_INPUT, "script.txt:2: "),
@@ -356,6 +361,8 @@ class View(ToolTest):
                                              code=BAD_INPUT).stderr)
         self.assertIn("Bake it first: lambent bake ball.obj",
                       self.view("ball.obj", "--hidden", code=BAD_INPUT).stderr)
+        self.assertIn("limit of 200 bytes", self.view("ball.glb", "--memory-limit", 200, "--hidden",
+                                                      code=BAD_INPUT).stderr)
         self.view("ball.glb", "--port", 80, code=USAGE)
         self.view("ball.glb", "--web", "--script", "x", code=USAGE)
 

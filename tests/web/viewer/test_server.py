@@ -43,6 +43,14 @@ class Server(unittest.TestCase):
         self.port = int(re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\n",
                                      self.server.stdout.readline()).group(1))
 
+    def test_an_address_that_nobody_takes_is_no_server(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run(
+                [self.dir / "bin/lambent", "view", "--web", "--no-browser"], stdout=full,
+                stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("standard output", result.stderr)
+
     def connect(self):
         client = socket.create_connection(("127.0.0.1", self.port), timeout=PROMPT)
         self.addCleanup(client.close)
