@@ -2,13 +2,19 @@
 BUILD  ?= build/release
 PREFIX ?= /usr/local
 JOBS   ?= $(shell nproc)
-# Rooms whose tests run under sanitizers in `make asan`: where files, bits and indices are handled.
-ASAN_ROOMS ?= file math radiometry sh image tone scene scene_io transfer asset light sources capture view atlas synthesis
+# Rooms whose tests run under sanitizers: in `make asan` all that read, index or write, in `make tsan`
+# all that run threads. Those that draw by OpenGL are left to the release build: its drivers are not
+# compiled with a sanitizer.
+ASAN_ROOMS ?= file math work radiometry sh image tone scene scene_io transfer asset atlas trace transport macro \
+              synthesis meso light sources capture shade view bi_scale reference
+TSAN_ROOMS ?= file work sh image atlas trace transport macro synthesis meso shade bi_scale reference
+# Tests of `make tsan`, as ctest's -R; all by default.
+TSAN_TESTS ?= .
 
 $(shell mkdir -p build)
 
 .PHONY: all help setup setup-tests inputs configure build product everything test demo figures screenshots bench \
-        install asan tsan format check-format check clean
+        install asan tsan clang format check-format check clean
 
 all: product
 
@@ -20,7 +26,8 @@ help:
 	@echo 'make figures             the pictures of docs/reproduction.md (FIGURES="figure3 table1": only those)'
 	@echo 'make screenshots         the viewers as they look, into docs/images'
 	@echo 'make install PREFIX=DIR  DIR/bin/lambent, the library and its CMake package'
-	@echo 'make asan | tsan         tests under sanitizers'
+	@echo 'make asan | tsan         tests under sanitizers (TSAN_TESTS=Threads: only those)'
+	@echo 'make clang               the library and the tool by clang, file by file, where a warning is an error'
 	@echo 'make check               formatting, rooms, references'
 	@echo 'make format              clang-format everything'
 
@@ -69,16 +76,23 @@ install: product
 	@cmake --install $(BUILD) --prefix '$(PREFIX)' > $(BUILD)-install.log
 	@echo 'installed: $(PREFIX)/bin/lambent'
 
-asan: setup
+asan: setup-tests
 	@cmake --preset asan > build/asan-configure.log 2>&1 || { cat build/asan-configure.log; exit 1; }
-	@cmake --build build/asan --parallel $(JOBS) --target $(ASAN_ROOMS:%=lambent_%_tests)
-	@ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure \
-	  -L '^($(shell echo $(ASAN_ROOMS) | tr ' ' '|'))$$'
+	@cmake --build build/asan --parallel $(JOBS) --target lambent_tool $(ASAN_ROOMS:%=lambent_%_tests)
+	@ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure -L '^($(call either,$(ASAN_ROOMS)))$$'
 
-tsan: setup
+tsan: setup-tests
 	@cmake --preset tsan > build/tsan-configure.log 2>&1 || { cat build/tsan-configure.log; exit 1; }
-	@cmake --build build/tsan --parallel $(JOBS) --target lambent_work_tests lambent_trace_tests lambent_macro_tests
-	@ctest --test-dir build/tsan --output-on-failure -L '^(work|trace|macro)$$'
+	@cmake --build build/tsan --parallel $(JOBS) --target $(TSAN_ROOMS:%=lambent_%_tests)
+	@TSAN_OPTIONS='suppressions=$(CURDIR)/tools/tsan.supp:ignore_noninstrumented_modules=1' \
+	  ctest --test-dir build/tsan --parallel $(JOBS) --output-on-failure -R '$(TSAN_TESTS)' \
+	  -L '^($(call either,$(TSAN_ROOMS)))$$'
+
+either = $(subst $() ,|,$(strip $(1)))
+
+clang: setup-tests
+	@cmake --preset clang > build/clang-configure.log 2>&1 || { cat build/clang-configure.log; exit 1; }
+	@cmake --build build/clang --parallel $(JOBS) --target lambent_tool
 
 SOURCES = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 

@@ -9,7 +9,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,6 +25,7 @@
 #include "lambent/trace/direction_set.h"
 #include "lambent/transport/receivers.h"
 #include "lambent/work/flush_denormals.h"
+#include "lambent/work/parallel_for.h"
 
 namespace {
 
@@ -90,7 +90,7 @@ class BareEmbree {
   void forReceivers(std::size_t step, const Work& work) const {
     tbb::enumerable_thread_specific<Room> rooms;
     const std::size_t chunks = (receivers_.size() + 63) / 64;
-    tbb::parallel_for(std::size_t(0), (chunks + step - 1) / step, [&](std::size_t which) {
+    work::parallelFor((chunks + step - 1) / step, [&](std::size_t which) {
       const std::size_t chunk = which * step;
       const work::FlushDenormals flush;
       Room& room = rooms.local();

@@ -3,7 +3,6 @@
 // merely reads as many bytes of transfer from where they lie.
 
 #include <benchmark/benchmark.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <ctime>
@@ -11,6 +10,7 @@
 
 #include "lambent/shade/shade.h"
 #include "lambent/shade/transfer_matrices.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::shade {
 namespace {
@@ -79,7 +79,7 @@ void diffuse(benchmark::State& state, int bands, int channels, Encoding encoding
 }
 
 void glossy(benchmark::State& state, int outBands, int inBands, int channels, Encoding encoding) {
-  const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
+  const work::ThreadLimit oneThread(1);
   const transfer::Matrices<transfer::Numbers> m{
       outBands, inBands, channels,
       numbers(

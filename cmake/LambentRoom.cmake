@@ -20,6 +20,20 @@ endif()
 if(LAMBENT_SANITIZE)
   add_compile_options(-fsanitize=${LAMBENT_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${LAMBENT_SANITIZE})
+  if(LAMBENT_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize-recover=undefined)
+  endif()
+endif()
+
+# Unity builds (CMAKE_UNITY_BUILD, as the release preset sets it) compile files together, which
+# reads what they include once: a clean build takes half the time. What one file forgets to include
+# or calls like another file's shows in the presets that compile file by file (dev, clang).
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+
+# The faster linker where it is there.
+find_program(LAMBENT_LLD ld.lld)
+if(LAMBENT_LLD AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  add_link_options(-fuse-ld=lld)
 endif()
 
 set_property(GLOBAL PROPERTY LAMBENT_ROOMS "")
@@ -46,6 +60,8 @@ function(lambent_room name)
     add_executable(${target}_tests ${ROOM_TESTS})
     target_link_libraries(${target}_tests PRIVATE lambent::${name} ${ROOM_TEST_LIBS}
       lambent_warnings GTest::gtest GTest::gtest_main)
+    # What is tested is as optimised as it is delivered; what tests it is compiled in half the time.
+    target_compile_options(${target}_tests PRIVATE $<$<CONFIG:Release>:-O1>)
     gtest_discover_tests(${target}_tests TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
       PROPERTIES LABELS ${name})
   endif()

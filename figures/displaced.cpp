@@ -1,10 +1,9 @@
 #include "figures/displaced.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/LU>
 
 #include "lambent/scene/shapes.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::figures {
 
@@ -61,7 +60,7 @@ scene::Scene displaced(const meso::Patch& patch, const ParametricSurface& surfac
     if (!from.uvs.empty())
       for (std::size_t t = 0; t < tiles; ++t)
         to.uvs.insert(to.uvs.end(), from.uvs.begin(), from.uvs.end());
-    tbb::parallel_for(std::size_t(0), tiles, [&](std::size_t t) {
+    work::parallelFor(tiles, [&](std::size_t t) {
       const double i = double(t % tilesU), j = double(t / tilesU) - tilesV;
       constexpr double kStep = 1e-5;  // periods
       for (std::size_t v = 0; v < vertices; ++v) {

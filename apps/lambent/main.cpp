@@ -1,5 +1,4 @@
 // lambent: bakes how light moves over an asset, and relights it.
-#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -12,6 +11,7 @@
 #include "apps/lambent/interrupt.h"
 #include "apps/lambent/standard_streams.h"
 #include "apps/lambent/verbs.h"
+#include "lambent/work/thread_limit.h"
 
 namespace {
 
@@ -19,9 +19,8 @@ using namespace lambent;
 using namespace lambent::tool;
 
 Status run(const Verb& verb, const ConsoleOptions& options, Console& console) {
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, size_t(options.threads));
+  std::optional<work::ThreadLimit> limit;
+  if (options.threads > 0) limit.emplace(options.threads);
   try {
     return verb.run(console);
   } catch (const std::bad_alloc&) {

@@ -19,8 +19,6 @@ using nlohmann::json;
 using test::Folder;
 using test::Glb;
 
-const std::string kName(kExtensionName);
-
 class AssetHostile : public ::testing::Test {
  public:
   explicit AssetHostile(Asset asset = everyLayout()) : asset_(std::move(asset)) {}
@@ -54,9 +52,9 @@ class AssetHostile : public ::testing::Test {
     EXPECT_NE(asset.error().message.find("bad.glb"), std::string::npos) << asset.error().message;
   }
 
-  static json& root(json& document) { return document["extensions"][kName]; }
+  static json& root(json& document) { return document["extensions"][test::kName]; }
   static json& primitive(json& document, int mesh) {
-    return document["meshes"][std::size_t(mesh)]["primitives"][0]["extensions"][kName];
+    return document["meshes"][std::size_t(mesh)]["primitives"][0]["extensions"][test::kName];
   }
 
   Asset asset_;

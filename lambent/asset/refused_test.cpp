@@ -18,10 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-const std::filesystem::path kSpec = LAMBENT_SPEC_DIR;
-
 json table() {
-  std::ifstream file(kSpec / "refused.json");
+  std::ifstream file(test::kSpec / "refused.json");
   EXPECT_TRUE(file);
   return json::parse(file, nullptr, false);
 }
@@ -94,7 +92,7 @@ TEST(Refused, AsTheTableSays) {
     const std::string sample = entry["sample"];
     SCOPED_TRACE(entry["name"].get<std::string>());
     if (!samples.contains(sample))
-      samples[sample] = test::Glb::parse(test::bytesOf(kSpec / "samples" / sample));
+      samples[sample] = test::Glb::parse(test::bytesOf(test::kSpec / "samples" / sample));
     const std::filesystem::path path = folder / "patched.glb";
     test::spill(path, patched(samples[sample], entry["patch"]).bytes());
     const Result<Asset> asset = read(path);

@@ -229,13 +229,13 @@ TEST(AssetRead, TheSameAssetAsJsonAndBinSideBySide) {
   const Folder folder;
   ASSERT_TRUE(write(everyLayout(), folder / "asset.glb"));
   const test::Glb glb = test::Glb::parse(test::bytesOf(folder / "asset.glb"));
-  std::string json = glb.json;
+  std::string text = glb.json;
   const std::string buffer = "\"buffers\":[{";
-  const std::size_t at = json.find(buffer);
+  const std::size_t at = text.find(buffer);
   ASSERT_NE(at, std::string::npos);
-  json.insert(at + buffer.size(), "\"uri\":\"asset.bin\",");
+  text.insert(at + buffer.size(), "\"uri\":\"asset.bin\",");
   test::spill(folder / "asset.bin", glb.binary);
-  test::spill(folder / "asset.gltf", std::as_bytes(std::span(json)));
+  test::spill(folder / "asset.gltf", std::as_bytes(std::span(text)));
   const Result<Asset> read = asset::read(folder / "asset.gltf");
   ASSERT_TRUE(read) << read.error().message;
   test::expectSame(*read, everyLayout());

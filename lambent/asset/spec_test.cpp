@@ -18,11 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-const std::filesystem::path kSpec = LAMBENT_SPEC_DIR;
-const std::string kName(kExtensionName);
-
 json schema(const std::string& what) {
-  std::ifstream file(kSpec / kName / "schema" / (what + "." + kName + ".schema.json"));
+  std::ifstream file(test::kSpec / test::kName / "schema" /
+                     (what + "." + test::kName + ".schema.json"));
   EXPECT_TRUE(file);
   return json::parse(file, nullptr, false);
 }
@@ -49,12 +47,12 @@ TEST(Spec, WhatIsWrittenIsWhatTheSchemaSays) {
   const test::Folder folder;
   ASSERT_TRUE(write(everyLayout(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
-  EXPECT_EQ(document["extensionsUsed"], json::array({kName}));
+  EXPECT_EQ(document["extensionsUsed"], json::array({test::kName}));
   EXPECT_FALSE(document.contains("extensionsRequired"));
-  expectDescribed(document["extensions"][kName], schema("glTF"), "root");
+  expectDescribed(document["extensions"][test::kName], schema("glTF"), "root");
   const json primitives = schema("mesh.primitive");
   for (std::size_t i = 0; i < 3; ++i)
-    expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][kName], primitives,
+    expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][test::kName], primitives,
                     "mesh " + std::to_string(i));
   EXPECT_FALSE(document["meshes"][3]["primitives"][0].contains("extensions"));  // the mirror
 }
@@ -64,12 +62,12 @@ TEST(Spec, BiScaleIsWhatTheSchemaSays) {
   ASSERT_TRUE(write(biScale(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
   const json root = schema("glTF");
-  expectDescribed(document["extensions"][kName], root, "root");
-  expectDescribed(document["extensions"][kName]["rtts"][0], root["properties"]["rtts"]["items"],
-                  "rtt");
+  expectDescribed(document["extensions"][test::kName], root, "root");
+  expectDescribed(document["extensions"][test::kName]["rtts"][0],
+                  root["properties"]["rtts"]["items"], "rtt");
   const json described = schema("mesh.primitive");
   for (std::size_t i = 0; i < 2; ++i) {
-    const json& object = document["meshes"][i]["primitives"][0]["extensions"][kName];
+    const json& object = document["meshes"][i]["primitives"][0]["extensions"][test::kName];
     for (const auto& [key, member] : object["biScale"].items()) {
       EXPECT_TRUE(described["properties"]["biScale"]["properties"].contains(key)) << key;
       if (key == "shadowed") expectDescribed(member, described["$defs"]["localMatrices"], key);
@@ -81,10 +79,10 @@ TEST(Spec, KeptShadowedTransferIsWhatTheSchemaSays) {
   const test::Folder folder;
   ASSERT_TRUE(write(keptShadowed(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
-  EXPECT_EQ(document["extensions"][kName]["version"], "1.2");
+  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.2");
   const json described = schema("mesh.primitive");
   for (std::size_t i = 0; i < 2; ++i)
-    expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][kName], described,
+    expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][test::kName], described,
                     "mesh " + std::to_string(i));
 }
 
@@ -107,7 +105,7 @@ TEST(Spec, SchemaNamesEveryEnumeration) {
 TEST(Spec, CommittedSamplesReadAsMeant) {
   for (const auto& [name, asset] : samples()) {
     SCOPED_TRACE(name);
-    const Result<Asset> read = asset::read(kSpec / "samples" / name);
+    const Result<Asset> read = asset::read(test::kSpec / "samples" / name);
     ASSERT_TRUE(read) << read.error().message
                       << "\nafter a change of the samples: lambent_write_samples spec/samples";
     test::expectSame(*read, asset);
@@ -120,16 +118,16 @@ TEST(Spec, FilesOfOlderVersionsReadAsMeant) {
                                     std::pair{"1.1/bi-scale.glb", biScale()}}) {
     SCOPED_TRACE(file);
     const json document =
-        json::parse(test::Glb::parse(test::bytesOf(kSpec / "samples" / file)).json);
-    EXPECT_EQ(document["extensions"][kName]["version"], std::string(file).substr(0, 3));
-    const Result<Asset> read = asset::read(kSpec / "samples" / file);
+        json::parse(test::Glb::parse(test::bytesOf(test::kSpec / "samples" / file)).json);
+    EXPECT_EQ(document["extensions"][test::kName]["version"], std::string(file).substr(0, 3));
+    const Result<Asset> read = asset::read(test::kSpec / "samples" / file);
     ASSERT_TRUE(read) << read.error().message;
     test::expectSame(*read, asset);
   }
 }
 
 TEST(Spec, TheSquareIsWhatAHandCalculates) {
-  const Result<Asset> read = asset::read(kSpec / "samples" / "unoccluded-square.glb");
+  const Result<Asset> read = asset::read(test::kSpec / "samples" / "unoccluded-square.glb");
   ASSERT_TRUE(read) << read.error().message;
   const std::vector<float> m =
       decode(std::get<transfer::Surface<transfer::Numbers>>(read->transfer.meshes[0])

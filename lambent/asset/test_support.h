@@ -11,9 +11,14 @@
 #include <vector>
 
 #include "lambent/asset/asset.h"
+#include "lambent/asset/format.h"
 #include "lambent/file/atomic_file.h"
 
 namespace lambent::asset::test {
+
+/// The published specification, and the name of the extension.
+inline const std::filesystem::path kSpec = LAMBENT_SPEC_DIR;
+inline const std::string kName(kExtensionName);
 
 /// A folder that goes with the test.
 class Folder {

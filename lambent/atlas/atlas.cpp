@@ -11,11 +11,11 @@
 #include <string>
 #include <utility>
 
-#include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
 #include "lambent/atlas/own_uvs.h"
 #include "lambent/atlas/pack.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::atlas {
 namespace {
@@ -39,12 +39,12 @@ Result<std::vector<LaidOut>> layOut(const WeldedSurface& surface, std::vector<Ch
   while (!work.empty()) {
     if (progress && !progress({"charts", triangles, total, "triangles"}))
       return report::cancelled();
-    tbb::parallel_for(std::size_t(0), work.size(), [&](std::size_t c) {
+    work::parallelFor(work.size(), [&](std::size_t c) {
       for (const std::uint32_t t : work[c]) chartOf[t] = static_cast<std::uint32_t>(c);
     });
     std::vector<std::optional<LaidOut>> results(work.size());
     std::vector<std::vector<Chart>> pieces(work.size());
-    tbb::parallel_for(std::size_t(0), work.size(), [&](std::size_t c) {
+    work::parallelFor(work.size(), [&](std::size_t c) {
       const Chart& chart = work[c];
       ChartPatch patch = chartPatch(surface, chart, chartOf, numberOf);
       if (patch.disc)
@@ -164,8 +164,7 @@ Result<WithFindings<Atlas>> makeAtlas(const scene::Mesh& mesh, const AtlasOption
       layOut(surface, cutIntoCharts(surface), options.maximumStretch, charts, progress);
   if (!laidOut) return laidOut.error();
   std::vector<PackShape> shapes(laidOut->size());
-  tbb::parallel_for(std::size_t(0), shapes.size(),
-                    [&](std::size_t c) { shapes[c] = shapeOf((*laidOut)[c]); });
+  work::parallelFor(shapes.size(), [&](std::size_t c) { shapes[c] = shapeOf((*laidOut)[c]); });
   if (progress && !progress({"packing", 0, shapes.size(), "charts"})) return report::cancelled();
   Result<Packing> packing = pack(shapes, {options.size, options.gutter});
   if (!packing) return packing.error();

@@ -10,13 +10,13 @@
 #include <set>
 #include <string>
 
-#include <tbb/global_control.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "lambent/math/random.h"
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::atlas {
 namespace {
@@ -315,7 +315,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, AtlasOf, testing::Range(std::size_t(0), cases()
 TEST(Atlas, IsTheSameAtAnyNumberOfThreads) {
   const scene::Mesh mesh = scene::torus(1.0f, 0.3f, 48, 24);
   const Atlas many = automatic(mesh, {.size = 256});
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const work::ThreadLimit one(1);
   const Atlas alone = automatic(mesh, {.size = 256});
   EXPECT_EQ(many.mesh.uvs, alone.mesh.uvs);
   EXPECT_EQ(many.chartOfTriangle, alone.chartOfTriangle);

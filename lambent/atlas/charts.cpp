@@ -15,9 +15,8 @@
 #include <queue>
 #include <tuple>
 
-#include <tbb/parallel_for.h>
-
 #include "lambent/atlas/smooth_borders.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::atlas {
 namespace {
@@ -38,7 +37,7 @@ constexpr double kRoundness = 0.15;
 /// Cosine of the angle from which a crease is sharp: regions end there before they are bisected.
 constexpr double kSharp = 0.6;
 /// What crossing a crease costs, per 1 − cos of its angle.
-constexpr double kCrease = 6.0;
+constexpr double kCreaseCost = 6.0;
 
 struct Seed {
   std::uint32_t triangle;
@@ -112,7 +111,7 @@ std::uint32_t grow(const WeldedSurface& surface, const Chart& region,
       const double turn = 1.0 - seeds[s].normal.dot(surface.normals[n]);
       const double crease = 1.0 - surface.normals[t].dot(surface.normals[n]);
       const double reached = cost + (surface.centroids[n] - surface.centroids[t]).norm() *
-                                        (kRoundness + turn) * (1.0 + kCrease * crease);
+                                        (kRoundness + turn) * (1.0 + kCreaseCost * crease);
       if (reached < scratch.cost[n]) {
         scratch.cost[n] = reached;
         queue.emplace(reached, n, s);
@@ -150,7 +149,7 @@ std::vector<Chart> bisect(const WeldedSurface& surface, const Chart& region,
 }
 
 void label(const std::vector<Chart>& charts, std::vector<std::uint32_t>& chartOf) {
-  tbb::parallel_for(std::size_t(0), charts.size(), [&](std::size_t c) {
+  work::parallelFor(charts.size(), [&](std::size_t c) {
     for (const std::uint32_t t : charts[c]) chartOf[t] = static_cast<std::uint32_t>(c);
   });
 }
@@ -162,7 +161,7 @@ std::vector<Chart> bisectAll(const WeldedSurface& surface, std::vector<Chart> wo
   while (!work.empty()) {
     label(work, chartOf);
     std::vector<std::vector<Chart>> pieces(work.size());
-    tbb::parallel_for(std::size_t(0), work.size(), [&](std::size_t c) {
+    work::parallelFor(work.size(), [&](std::size_t c) {
       const double area = areaOf(surface, work[c]);
       if (work[c].size() >= 2 && area > kSmallestBisected * surface.area &&
           normalSum(surface, work[c]).norm() < kCoherent * area)
@@ -315,8 +314,7 @@ std::vector<Chart> cutIntoCharts(const WeldedSurface& surface) {
   for (const std::uint32_t t : everything) one[t] = 0;
   for (int i = 0; i < 4; ++i) {
     std::vector<Seed> seeds(charts.size());
-    tbb::parallel_for(std::size_t(0), charts.size(),
-                      [&](std::size_t c) { seeds[c] = seedOf(surface, charts[c]); });
+    work::parallelFor(charts.size(), [&](std::size_t c) { seeds[c] = seedOf(surface, charts[c]); });
     grow(surface, everything, one, 0, seeds, scratch);
     charts = gather(everything, seeds.size(), scratch);
   }

@@ -14,10 +14,9 @@
 #include <optional>
 #include <string>
 
-#include <tbb/parallel_for.h>
-
 #include "lambent/atlas/touched_texels.h"
 #include "lambent/math/random.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::atlas {
 namespace {
@@ -354,8 +353,7 @@ std::optional<Packing> tryToPack(const std::vector<PackShape>& shapes, const Ord
 
 Result<Packing> pack(const std::vector<PackShape>& shapes, const PackOptions& options) {
   std::vector<double> angles(shapes.size());
-  tbb::parallel_for(std::size_t(0), shapes.size(),
-                    [&](std::size_t c) { angles[c] = uprightAngle(shapes[c]); });
+  work::parallelFor(shapes.size(), [&](std::size_t c) { angles[c] = uprightAngle(shapes[c]); });
   const std::vector<std::vector<std::uint32_t>> orders = ordersOf(shapes);
   double area = 0.0;
   for (const PackShape& shape : shapes) area += shape.area;
@@ -370,7 +368,7 @@ Result<Packing> pack(const std::vector<PackShape>& shapes, const PackOptions& op
   };
   const auto bestOf = [&](std::vector<Trial> trials, int cell) {
     const int size = options.size / cell, gutter = (options.gutter + cell - 1) / cell;
-    tbb::parallel_for(std::size_t(0), trials.size(), [&](std::size_t i) {
+    work::parallelFor(trials.size(), [&](std::size_t i) {
       trials[i].packing = tryToPack(shapes, {orders[trials[i].order], angles}, size, gutter,
                                     size * std::sqrt(trials[i].share / area), thorough);
     });

@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::atlas {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 constexpr int kRounds = 3;
 constexpr int kSteps = 10;
 /// How much less passes a crease: by e for each this much of 1 − cos.
-constexpr double kCrease = 0.15;
+constexpr double kCreaseScale = 0.15;
 
 /// The shares of the few charts that have reached a triangle.
 struct Shares {
@@ -52,7 +52,7 @@ std::vector<Chart> smoothBorders(const WeldedSurface& surface, const std::vector
   for (std::uint32_t c = 0; c < charts.size(); ++c)
     for (const std::uint32_t t : charts[c]) chartOf[t] = c;
   std::vector<std::array<float, 3>> passes(count);
-  tbb::parallel_for(std::size_t(0), count, [&](std::size_t t) {
+  work::parallelFor(count, [&](std::size_t t) {
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t n = surface.neighbours[t][k];
       passes[t][k] = 0.0f;
@@ -60,18 +60,18 @@ std::vector<Chart> smoothBorders(const WeldedSurface& surface, const std::vector
       const auto& v = surface.triangles[t];
       const double length = (surface.positions[v[k]] - surface.positions[v[(k + 1) % 3]]).norm();
       const double crease = 1.0 - surface.normals[t].dot(surface.normals[n]);
-      passes[t][k] = static_cast<float>(length * std::exp(-crease / kCrease));
+      passes[t][k] = static_cast<float>(length * std::exp(-crease / kCreaseScale));
     }
   });
 
   std::vector<Shares> now(count), next(count);
   for (int round = 0; round < kRounds; ++round) {
-    tbb::parallel_for(std::size_t(0), count, [&](std::size_t t) {
+    work::parallelFor(count, [&](std::size_t t) {
       now[t].count = 0;
       if (chartOf[t] != kNoTriangle) now[t].add(chartOf[t], 1.0f);
     });
     for (int step = 0; step < kSteps; ++step) {
-      tbb::parallel_for(std::size_t(0), count, [&](std::size_t t) {
+      work::parallelFor(count, [&](std::size_t t) {
         next[t] = now[t];
         if (now[t].count == 0) return;
         // Within a chart nothing changes.
@@ -102,7 +102,7 @@ std::vector<Chart> smoothBorders(const WeldedSurface& surface, const std::vector
       });
       now.swap(next);
     }
-    tbb::parallel_for(std::size_t(0), count, [&](std::size_t t) {
+    work::parallelFor(count, [&](std::size_t t) {
       float best = -1.0f;
       for (int i = 0; i < now[t].count; ++i)
         if (now[t].share[i] > best || (now[t].share[i] == best && now[t].chart[i] < chartOf[t]))

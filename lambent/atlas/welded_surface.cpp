@@ -11,7 +11,7 @@ namespace {
 
 /// A triangle whose height is below this share of its longest edge is a line: floats that are read
 /// from files do not say which side of it is the front.
-constexpr double kThinnest = 1e-7;
+constexpr double kFlattest = 1e-7;
 
 std::vector<std::uint32_t> weld(const scene::Mesh& mesh, std::vector<Vec3d>& positions) {
   std::vector<std::array<float, 3>> keys(mesh.positions.size());
@@ -71,7 +71,7 @@ WeldedSurface weldedSurface(const scene::Mesh& mesh) {
     const double size = doubled.norm();
     const double longest =
         std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    if (!(size > kThinnest * longest)) continue;
+    if (!(size > kFlattest * longest)) continue;
     surface.areas[t] = 0.5 * size;
     surface.area += 0.5 * size;
     surface.normals[t] = doubled / size;

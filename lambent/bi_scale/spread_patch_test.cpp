@@ -1,7 +1,6 @@
 #include "lambent/bi_scale/spread_patch.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/transfer/encode.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::bi_scale {
 namespace {
@@ -101,7 +101,7 @@ TEST(SpreadPatch, VerticesThatWereOneKeepOneFrameAndOneMatrix) {
 TEST(SpreadPatch, IsTheSameAtAnyThreadCount) {
   const scene::Scene scene = scene::sceneOf(scene::icosphere(1, 3));
   const auto ids = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const work::ThreadLimit limit(threads);
     const Spread spread = spreadOrDie(scene, small());
     const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
     return std::pair(biScale.patch.idMap()->ids,

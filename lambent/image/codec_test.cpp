@@ -13,7 +13,7 @@
 namespace lambent::image {
 namespace {
 
-constexpr int kWidth = 13, kHeight = 11;
+constexpr int kAcross = 13, kDown = 11;
 
 unsigned codeAt(const PngKind& kind, int x, int y, int c) {
   const unsigned mixed =
@@ -76,7 +76,7 @@ std::vector<PngKind> allKinds() {
 }
 
 std::string fileOf(const PngKind& kind) {
-  return makePng(kWidth, kHeight, kind, [&](int x, int y, int c) { return codeAt(kind, x, y, c); });
+  return makePng(kAcross, kDown, kind, [&](int x, int y, int c) { return codeAt(kind, x, y, c); });
 }
 
 TEST(Codecs, EveryKindOfPng) {
@@ -92,10 +92,10 @@ TEST(Codecs, EveryKindOfPng) {
     const bool hasAlpha = kind.type >= 4 || !kind.transparency.empty();
     ASSERT_EQ(!image->alpha.empty(), hasAlpha);
     const float most = kind.depth == 16 ? 65535.0f : 255.0f;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kDown; ++y) {
+      for (int x = 0; x < kAcross; ++x) {
         const std::array<unsigned, 4> expected = expectedAt(kind, x, y);
-        const size_t i = size_t(y) * kWidth + x;
+        const size_t i = size_t(y) * kAcross + x;
         const float alpha = static_cast<float>(expected[3]) / most;
         if (hasAlpha) {
           ASSERT_FLOAT_EQ(image->alpha[i], alpha);
@@ -254,7 +254,7 @@ TEST(Codecs, AnyBytesAreAnsweredWithPixelsOrBadInput) {
 
 TEST(Codecs, ABudgetIsKept) {
   const std::string file = fileOf({});
-  file::Budget budget(std::uint64_t(4 * kWidth * kHeight));
+  file::Budget budget(std::uint64_t(4 * kAcross * kDown));
   EXPECT_TRUE(decode8(bytesOf(file), "a.png", budget));
   const Result<Pixels8> second = decode8(bytesOf(file), "b.png", budget);
   ASSERT_FALSE(second);

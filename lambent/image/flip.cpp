@@ -11,12 +11,12 @@
 // the nearest pixel is repeated.
 #include "lambent/image/flip.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
+
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::image {
 namespace {
@@ -88,7 +88,7 @@ Plane convolve(const Plane& in, int width, int height, std::span<const float> ac
                std::span<const float> down) {
   Plane between(in.size()), out(in.size());
   const int rx = static_cast<int>(across.size() / 2), ry = static_cast<int>(down.size() / 2);
-  tbb::parallel_for(0, height, [&](int y) {
+  work::parallelFor(height, [&](int y) {
     const float* const row = &in[size_t(y) * width];
     for (int x = 0; x < width; ++x) {
       float sum = 0;
@@ -96,7 +96,7 @@ Plane convolve(const Plane& in, int width, int height, std::span<const float> ac
       between[size_t(y) * width + x] = sum;
     }
   });
-  tbb::parallel_for(0, height, [&](int y) {
+  work::parallelFor(height, [&](int y) {
     float* const row = &out[size_t(y) * width];
     for (int k = -ry; k <= ry; ++k) {
       const float weight = down[k + ry];

@@ -21,7 +21,7 @@ namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
 
 // A line of one colour in old runs: 16 bytes for 65536 pixels; in new ones 8 bytes for 127.
-constexpr size_t kMaxPixelsPerByte = 4096;
+constexpr size_t kMaxPixelsPerHdrByte = 4096;
 
 /// The stretch of the file that is not read yet.
 class Cursor {
@@ -261,7 +261,7 @@ Result<Image> readHdr(Bytes bytes, std::string_view name, file::Budget& budget) 
   const Result<Header> header = readHeader(file, name);
   if (!header) return header.error();
   if (Status sane =
-          checkSize(header->width(), header->height(), bytes.size(), name, kMaxPixelsPerByte);
+          checkSize(header->width(), header->height(), bytes.size(), name, kMaxPixelsPerHdrByte);
       !sane) {
     return sane.error();
   }

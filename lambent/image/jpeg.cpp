@@ -16,7 +16,7 @@ namespace {
 
 // A progressive scan skips 32767 blocks of 64 pixels in three bytes, but the first scan spends a
 // bit on every block.
-constexpr size_t kMaxPixelsPerByte = 16384;
+constexpr size_t kMaxPixelsPerJpegByte = 16384;
 
 /// Every scan of a progressive file goes over the whole picture, in however few bytes; encoders
 /// make about ten.
@@ -125,7 +125,7 @@ Result<Codes> readJpeg(Bytes bytes, std::string_view name, file::Budget& budget)
   if (!readHeader(decoder, bytes)) return undecodable();
   const jpeg_decompress_struct& jpeg = decoder.library;
   if (Status sane =
-          checkSize(jpeg.image_width, jpeg.image_height, bytes.size(), name, kMaxPixelsPerByte);
+          checkSize(jpeg.image_width, jpeg.image_height, bytes.size(), name, kMaxPixelsPerJpegByte);
       !sane) {
     return sane.error();
   }

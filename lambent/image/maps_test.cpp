@@ -154,18 +154,7 @@ TEST(Maps, ShapesAreCheckedAndGuessed) {
   EXPECT_EQ(guessKind(123, 45), std::nullopt);
 }
 
-Image paint(const MapShape& shape, const auto& radiance) {
-  Image image(shape.width, shape.height);
-  for (int y = 0; y < shape.height; ++y) {
-    for (int x = 0; x < shape.width; ++x) {
-      const auto direction = directionOf(shape, {x + 0.5, y + 0.5});
-      if (direction) image.at(x, y) = radiance(*direction);
-    }
-  }
-  return image;
-}
-
-Rgb smooth(const Vec3d& d) {
+Rgb smoothRadiance(const Vec3d& d) {
   return Rgb(1 + static_cast<float>(d.x()), 1 + static_cast<float>(d.y() * d.z()),
              2 - static_cast<float>(d.z()));
 }
@@ -174,7 +163,7 @@ TEST(Maps, SamplesInterpolateEverywhere) {
   for (const MapShape& shape :
        {MapShape{MapKind::LatLong, 128, 64}, MapShape{MapKind::Cube, 48, 288},
         MapShape{MapKind::Cube, 144, 192}, MapShape{MapKind::Angular, 128, 128}}) {
-    const Image image = paint(shape, smooth);
+    const Image image = paint(shape, smoothRadiance);
     Sequence sequence(9);
     float worst = 0;
     for (int i = 0; i < 5000; ++i) {
@@ -182,7 +171,7 @@ TEST(Maps, SamplesInterpolateEverywhere) {
           i < 2000 ? randomDirection(sequence)
                    : Vec3d(Vec3d(0, i % 2 ? 1 : -1, i % 3 - 1.0) * 20 + randomDirection(sequence))
                          .normalized();  // poles, edges, rim
-      worst = std::max(worst, (sample(image, shape.kind, d) - smooth(d)).abs().maxCoeff());
+      worst = std::max(worst, (sample(image, shape.kind, d) - smoothRadiance(d)).abs().maxCoeff());
     }
     EXPECT_LT(worst, shape.kind == MapKind::LatLong ? 0.02f : 0.04f) << nameOf(shape);
   }
@@ -190,7 +179,7 @@ TEST(Maps, SamplesInterpolateEverywhere) {
 
 TEST(Maps, SamplesAtCentresAreThePixels) {
   for (const MapShape& shape : kShapes) {
-    const Image image = paint(shape, smooth);
+    const Image image = paint(shape, smoothRadiance);
     for (int y = 0; y < shape.height; ++y) {
       for (int x = 0; x < shape.width; ++x) {
         const auto d = directionOf(shape, {x + 0.5, y + 0.5});
@@ -204,7 +193,7 @@ TEST(Maps, SamplesAtCentresAreThePixels) {
 
 TEST(Maps, ResampleThereAndBack) {
   const MapShape latLong{MapKind::LatLong, 128, 64};
-  const Image image = paint(latLong, smooth);
+  const Image image = paint(latLong, smoothRadiance);
   for (const MapShape& other : {MapShape{MapKind::Cube, 48, 288}, MapShape{MapKind::Cube, 160, 120},
                                 MapShape{MapKind::Angular, 160, 160}}) {
     const Image there = resample(image, MapKind::LatLong, other);

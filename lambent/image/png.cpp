@@ -32,7 +32,7 @@ namespace formats {
 namespace {
 
 // Deflate makes at most 1032 bytes of one, eight 1-bit pixels each.
-constexpr size_t kMaxPixelsPerByte = 8256;
+constexpr size_t kMaxPixelsPerPngByte = 8256;
 
 constexpr std::array<unsigned char, 8> kPngMagic{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
@@ -82,7 +82,7 @@ Result<Pieces> checkPng(Bytes bytes, std::string_view name) {
     if (first) {
       if (type != "IHDR" || length != 13) return damaged(name, "the header is missing", at);
       if (Status sane = checkSize(bigEndian(bytes, at + 8), bigEndian(bytes, at + 12), bytes.size(),
-                                  name, kMaxPixelsPerByte);
+                                  name, kMaxPixelsPerPngByte);
           !sane) {
         return sane.error();
       }

@@ -14,14 +14,13 @@
 // at every pixel: O(bands) a pixel. A and B come from 2·bands samples of y_i around the row.
 #include "lambent/image/project.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "lambent/math/directions.h"
 #include "lambent/sh/basis.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::image {
 namespace {
@@ -46,7 +45,7 @@ Sums sumOverRows(int rows, int count, const auto& addRows) {
   const int blockRows = (rows + kMaxBlocks - 1) / kMaxBlocks;
   const int blocks = (rows + blockRows - 1) / blockRows;
   std::vector<Sums> partial(blocks, Sums(count));
-  tbb::parallel_for(0, blocks, [&](int b) {
+  work::parallelFor(blocks, [&](int b) {
     addRows(b * blockRows, std::min((b + 1) * blockRows, rows), partial[b]);
   });
   Sums total(count);

@@ -1,7 +1,6 @@
 #include "lambent/image/project.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -9,27 +8,18 @@
 #include "lambent/image/test_pictures.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::image {
 namespace {
 
-const MapShape kShapes[] = {{MapKind::LatLong, 256, 128},   {MapKind::LatLong, 251, 127},
-                            {MapKind::Cube, 64, 384},       {MapKind::Cube, 256, 192},
-                            {MapKind::Cube, 192, 256},      {MapKind::Angular, 256, 256},
-                            {MapKind::MirrorBall, 256, 256}};
-
-Image paint(const MapShape& shape, const auto& radiance) {
-  Image image(shape.width, shape.height);
-  for (int y = 0; y < shape.height; ++y) {
-    for (int x = 0; x < shape.width; ++x) {
-      if (const auto d = directionOf(shape, {x + 0.5, y + 0.5})) image.at(x, y) = radiance(*d);
-    }
-  }
-  return image;
-}
+const MapShape kProjectedShapes[] = {{MapKind::LatLong, 256, 128},   {MapKind::LatLong, 251, 127},
+                                     {MapKind::Cube, 64, 384},       {MapKind::Cube, 256, 192},
+                                     {MapKind::Cube, 192, 256},      {MapKind::Angular, 256, 256},
+                                     {MapKind::MirrorBall, 256, 256}};
 
 TEST(Project, ConstantIsExact) {
-  for (const MapShape& shape : kShapes) {
+  for (const MapShape& shape : kProjectedShapes) {
     const sh::RgbCoefficients f =
         project(paint(shape, [](const Vec3d&) { return Rgb(1, 2, 3); }), shape.kind, 5);
     ASSERT_EQ(f.bands, 5);
@@ -42,7 +32,7 @@ TEST(Project, ConstantIsExact) {
 }
 
 TEST(Project, EveryBasisFunctionComesBack) {
-  for (const MapShape& shape : kShapes) {
+  for (const MapShape& shape : kProjectedShapes) {
     for (int i = 0; i < 25; ++i) {
       std::vector<double> basis(25);
       const Image image = paint(shape, [&](const Vec3d& d) {
@@ -103,11 +93,11 @@ TEST(Project, DiscOfKnownSize) {
 }
 
 TEST(Project, SameBytesWhateverTheThreads) {
-  for (const MapShape& shape : kShapes) {
+  for (const MapShape& shape : kProjectedShapes) {
     const Image image = noise(shape.width, shape.height);
     std::vector<std::vector<float>> results;
     for (const size_t threads : {1, 2, 5}) {
-      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      const work::ThreadLimit limit(threads);
       results.push_back(project(image, shape.kind, 5).values);
     }
     EXPECT_EQ(results[0], results[1]);

@@ -1,9 +1,9 @@
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "lambent/image/maps.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::image {
 
@@ -14,7 +14,7 @@ Image resample(const Image& source, MapKind sourceKind, const MapShape& target) 
                                  (static_cast<double>(target.width) * target.height));
   const int grid = std::clamp(static_cast<int>(std::ceil(ratio)), 2, 16);
   Image out(target.width, target.height);
-  tbb::parallel_for(0, target.height, [&](int y) {
+  work::parallelFor(target.height, [&](int y) {
     for (int x = 0; x < target.width; ++x) {
       Rgb sum = Rgb::Zero();
       int count = 0;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lambent/image/image.h"
+#include "lambent/image/maps.h"
 
 namespace lambent::image {
 
@@ -44,6 +45,17 @@ inline Image gradient(int width, int height) {
       const float u = static_cast<float>(x) / static_cast<float>(width);
       const float v = static_cast<float>(y) / static_cast<float>(height);
       image.at(x, y) = Rgb(0.25f + 0.5f * u, 0.25f + 0.5f * v, 0.5f + 0.25f * (u - v));
+    }
+  }
+  return image;
+}
+
+/// A map with radiance(direction) at each pixel's centre, black where it has no direction.
+inline Image paint(const MapShape& shape, const auto& radiance) {
+  Image image(shape.width, shape.height);
+  for (int y = 0; y < shape.height; ++y) {
+    for (int x = 0; x < shape.width; ++x) {
+      if (const auto d = directionOf(shape, {x + 0.5, y + 0.5})) image.at(x, y) = radiance(*d);
     }
   }
   return image;

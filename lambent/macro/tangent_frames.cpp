@@ -1,13 +1,12 @@
 // Matrices turned from the world into tangent frames: M_local = D M, D the rotation of harmonics by
 // tangentFromWorld (sloan2003biscale §3: "M_p includes a rotation of the lighting from a global
 // coordinate frame into a local frame").
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 
 #include "lambent/macro/simulation.h"
 #include "lambent/sh/rotation.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::macro {
 
@@ -30,9 +29,9 @@ std::vector<float> inTangentFrames(const Simulation& simulation,
                                    int channels) {
   const std::size_t rows = simulation.outCount, columns = simulation.inCount;
   std::vector<float> turned(std::size_t(place.count) * channels * rows * columns);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, place.count, 64), [&](const auto& range) {
+  work::parallelRanges(place.count, 64, [&](std::size_t begin, std::size_t end) {
     std::vector<double> sum(columns);
-    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+    for (std::size_t k = begin; k < end; ++k) {
       const std::vector<double> d = sh::rotationMatrix(
           simulation.outBands, tangentFromWorld(place.local->tangents[k],
                                                 simulation.receivers.normals[place.first + k]));

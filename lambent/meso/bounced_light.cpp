@@ -34,7 +34,7 @@ struct FacetHits {
 };
 using KeptHits = transport::KeptHits<FacetHits>;
 
-struct Scratch {
+struct BounceScratch {
   PeriodicCast cast;
   Irradiance irradiance;
   std::vector<double> sum;
@@ -69,7 +69,7 @@ class Bounces {
   }
 
  private:
-  Scratch scratch() const {
+  BounceScratch scratch() const {
     const std::size_t wide = std::max(directStride_, light_.stride);
     return {{}, Irradiance(options_.bands), std::vector<double>(wide), {}};
   }
@@ -119,7 +119,7 @@ Status Bounces::direct() {
   light_.exit.assign(facets_.size() * light_.stride, 0.0f);
   const work::Stage stage{"light inside the patch", "rays",
                           static_cast<std::uint64_t>(lattice_.directions.size()) / 2};
-  const auto gather = [&](const work::Chunk& chunk, Scratch& s) {
+  const auto gather = [&](const work::Chunk& chunk, BounceScratch& s) {
     FacetHits hits;
     const std::uint64_t before = s.cast.rays;
     for (auto f = static_cast<std::uint32_t>(chunk.begin); f < chunk.end; ++f) {
@@ -147,7 +147,7 @@ Status Bounces::direct() {
 Status Bounces::bounceOnce(int bounce, bool last) {
   std::vector<float> next(light_.exit.size());
   const std::string name = "bounce " + std::to_string(bounce);
-  const auto gather = [&](const work::Chunk& chunk, Scratch& s) {
+  const auto gather = [&](const work::Chunk& chunk, BounceScratch& s) {
     const FacetHits* hits = kept_.of(chunk.index);
     if (!hits) {
       s.again.clear();

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "lambent/meso/generators.h"
+#include "lambent/meso/profile.h"
 
 namespace lambent::meso {
 
@@ -34,16 +35,6 @@ Patch sampled(const char* name, const Vec2& size, int resolution,
   material.name = name;
   material.diffuse = Rgb::Ones();  // the samples have the colour
   return patchOf(field, size, material, name);
-}
-
-double smooth(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
-/// The signed distance from x to the nearest whole number.
-double fromWhole(double x) {
-  return x - std::round(x);
 }
 
 Rgb mix(const Rgb& a, const Rgb& b, double t) {

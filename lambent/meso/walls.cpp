@@ -11,6 +11,7 @@
 
 #include "lambent/math/random.h"
 #include "lambent/meso/generators.h"
+#include "lambent/meso/profile.h"
 
 namespace lambent::meso {
 
@@ -73,15 +74,6 @@ class Octaves {
   double gain_;
   std::vector<Noise> noises_;
 };
-
-double fromWhole(double x) {
-  return x - std::round(x);
-}
-
-double smooth(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 /// Heights scaled to lie between 0 and `depth`, as a patch of one colour.
 Patch finished(const char* name, std::vector<double> heights, int resolution, const Vec2& size,

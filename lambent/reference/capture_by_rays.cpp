@@ -3,12 +3,11 @@
 #include <cassert>
 #include <optional>
 
-#include <tbb/parallel_for.h>
-
 #include "lambent/sh/basis.h"
 #include "lambent/sh/rotation.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/work/flush_denormals.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::reference {
 
@@ -28,7 +27,7 @@ std::vector<sh::RgbCoefficients> captureByRays(const capture::MovingScene& scene
   const Result<trace::RayScene> rays = trace::RayScene::build(still);
   if (!rays) return result;  // no bodies
   const std::vector<double> weights = capture::cubeWeights(shape, bands);
-  tbb::parallel_for(std::size_t(0), points.size(), [&](std::size_t p) {
+  work::parallelFor(points.size(), [&](std::size_t p) {
     const work::FlushDenormals flush;
     capture::CubePicture picture{shape,
                                  std::vector<Rgb>(std::size_t(6 * shape.drawn() * shape.drawn()))};

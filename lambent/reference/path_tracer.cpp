@@ -83,7 +83,8 @@ Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
   constexpr int kLargest = 1 << 15;
   if (width < 1 || height < 1 || width > kLargest || height > kLargest)
     return report::badUsage("a picture's width and height are from 1 to 32768 pixels");
-  const auto [batches, pathsPerBatch] = plan(options.samples);
+  const auto planned = plan(options.samples);
+  const int batches = planned.batches, pathsPerBatch = planned.pathsPerBatch;
   const Integrator integrator(scene, rays, environment, options);
   Picture out{image::Image(width, height), image::Image(width, height)};
   out.mean.alpha.resize(out.mean.pixels.size());
@@ -122,7 +123,8 @@ Result<std::vector<Estimate>> exitRadiance(const scene::Scene& scene, const trac
                                            const PathTraceOptions& options,
                                            const Progress& progress) {
   if (const Status status = check(options); !status) return status.error();
-  const auto [batches, pathsPerBatch] = plan(options.samples);
+  const auto planned = plan(options.samples);
+  const int batches = planned.batches, pathsPerBatch = planned.pathsPerBatch;
   const Integrator integrator(scene, rays, environment, options);
   std::vector<Estimate> out(probes.size());
   const Status whole = forAll(probes.size(), "points", options, progress, [&](std::size_t i) {

@@ -10,6 +10,7 @@
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 #include "lambent/math/statistics.h"
+#include "lambent/reference/test_statistics.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
@@ -19,7 +20,6 @@ namespace {
 
 using light::Environment;
 
-constexpr double kLargestZ = 5.0;
 constexpr int kMany = 1 << 20;  ///< bounces: all of them
 
 scene::Material diffuseMaterial(const Rgb& albedo) {

@@ -1,11 +1,11 @@
 #include "lambent/reference/relit_picture.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "lambent/sh/basis.h"
 #include "lambent/shade/shade.h"
 #include "lambent/shade/test_assets.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::reference {
 namespace {
@@ -171,7 +171,7 @@ TEST(RelitPicture, HasTheSameBytesWhateverTheThreads) {
   options.background = true;
   std::vector<image::Image> images;
   for (const std::size_t threads : {1, 2, 8}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const work::ThreadLimit limit(threads);
     auto image = relitPicture(asset, light, sky, camera, options);
     ASSERT_TRUE(image) << image.error().message;
     images.push_back(std::move(*image));

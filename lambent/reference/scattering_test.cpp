@@ -8,11 +8,10 @@
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 #include "lambent/math/statistics.h"
+#include "lambent/reference/test_statistics.h"
 
 namespace lambent::reference {
 namespace {
-
-constexpr double kLargestZ = 5.0;
 
 scene::SurfacePoint surface(const Rgb& diffuse, const Rgb& glossy, float exponent) {
   scene::SurfacePoint point;

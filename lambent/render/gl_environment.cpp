@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "lambent/math/directions.h"
 #include "lambent/render/shader_sources.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::render {
 namespace {
@@ -23,7 +23,7 @@ constexpr int kSmoothWidth = 512;
 Texture pictureOf(const Environment& environment, int width) {
   const int height = std::max(width / 2, 1);
   std::vector<Rgb> texels(std::size_t(width) * height);
-  tbb::parallel_for(0, height, [&](int y) {
+  work::parallelFor(height, [&](int y) {
     const double elevation = kPi * (0.5 - (y + 0.5) / height);
     for (int x = 0; x < width; ++x) {
       const double azimuth = 2.0 * kPi * ((x + 0.5) / width - 0.5);

@@ -14,7 +14,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
 #include "lambent/render/batches.h"
@@ -22,6 +21,7 @@
 #include "lambent/shade/lit_patch.h"
 #include "lambent/transfer/encode.h"
 #include "lambent/transfer/half.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::render {
 namespace {
@@ -169,7 +169,7 @@ Result<GlPatches::Rtt> GlPatches::makeRtt(int index, bool filter) const {
   const std::size_t perPosition = pyramid.viewCount() * std::size_t(pyramid.stride());
   for (std::size_t k = 0; k < pyramid.levels.size(); ++k) {
     const shade::RttLevel& level = pyramid.levels[k];
-    tbb::parallel_for(0, level.width * level.height, [&](int place) {
+    work::parallelFor(level.width * level.height, [&](int place) {
       for (std::size_t view = 0; view < pyramid.viewCount(); ++view)
         pack(level.values.data() + place * perPosition + view * pyramid.stride(), pyramid.stride(),
              encoding, rtt.scales,

@@ -23,18 +23,11 @@ using shade::test::addPatched;
 using shade::test::bumpyRtt;
 using shade::test::SpreadOptions;
 using test::expectAgreement;
+using test::small;
 using transfer::Encoding;
 using transfer::Kind;
 
-const scene::Camera kCamera = shade::test::cameraAt(Vec3(1.0f, 1.0f, 3.5f), Vec3(0, -0.2f, 0));
-
-shade::PictureOptions small(int samples) {
-  shade::PictureOptions options;
-  options.width = 128;
-  options.height = 96;
-  options.samples = samples;
-  return options;
-}
+const scene::Camera kPatchCamera = shade::test::cameraAt(Vec3(1.0f, 1.0f, 3.5f), Vec3(0, -0.2f, 0));
 
 /// A ball over a floor that reaches into the distance.
 asset::Asset ballAndFloor(const SpreadOptions& options, int bands = 5, int views = 8) {
@@ -64,7 +57,7 @@ TEST(GlPatches, EqualTheCpuForEveryEncodingWithAndWithoutAMap) {
         picture.showing.filter = filter;
         expectAgreement("patches-" + std::to_string(map) + std::to_string(filter) +
                             std::to_string(int(encoding)),
-                        ballAndFloor(options), kCamera, picture,
+                        ballAndFloor(options), kPatchCamera, picture,
                         filter && encoding == Encoding::Snorm8 ? kOfBytes : test::Agreement());
       }
 }
@@ -79,7 +72,7 @@ TEST(GlPatches, EqualTheCpuForEveryMacroTransport) {
     for (const Kind macro : transfer::kKinds) {
       shade::PictureOptions picture = small(1);
       picture.showing.mesoStructure = macro;
-      expectAgreement("macro-" + std::to_string(int(macro)), asset, kCamera, picture);
+      expectAgreement("macro-" + std::to_string(int(macro)), asset, kPatchCamera, picture);
     }
   }
 }
@@ -91,8 +84,8 @@ TEST(GlPatches, EqualTheCpuForOtherBandsAndViews) {
     SpreadOptions options = mapped();
     options.shadowedBands = matrixBands;
     options.encoding = Encoding::Float16;
-    expectAgreement("bands-" + std::to_string(bands), ballAndFloor(options, bands, views), kCamera,
-                    small(1));
+    expectAgreement("bands-" + std::to_string(bands), ballAndFloor(options, bands, views),
+                    kPatchCamera, small(1));
   }
 }
 
@@ -100,8 +93,8 @@ TEST(GlPatches, EqualTheCpuWithoutDependenceOnTheView) {
   for (const int views : {7, 8}) {
     shade::PictureOptions picture = small(2);
     picture.showing.viewDependent = false;
-    expectAgreement("pasted-" + std::to_string(views), ballAndFloor(mapped(), 3, views), kCamera,
-                    picture);
+    expectAgreement("pasted-" + std::to_string(views), ballAndFloor(mapped(), 3, views),
+                    kPatchCamera, picture);
   }
 }
 
@@ -114,7 +107,7 @@ TEST(GlPatches, EqualTheCpuForAnOrthographicCamera) {
 TEST(GlPatches, FallIntoBlocksWithoutSeams) {
   SpreadOptions options;
   options.shadowedBands = 3;
-  expectAgreement("patches-blocks", ballAndFloor(options, 3, 4), kCamera, small(1), {12'000});
+  expectAgreement("patches-blocks", ballAndFloor(options, 3, 4), kPatchCamera, small(1), {12'000});
 }
 
 TEST(GlPatches, StandBesideOtherSurfaces) {
@@ -122,7 +115,7 @@ TEST(GlPatches, StandBesideOtherSurfaces) {
   shade::test::addDiffuse(asset, shade::test::sphere(Vec3(1.6f, 0, 0.5f), 0.4f, 8), {});
   shade::test::addMirror(asset, shade::test::sphere(Vec3(-1.6f, 0, 0.5f), 0.4f, 24),
                          Rgb(0.9f, 0.8f, 0.7f));
-  expectAgreement("patches-beside", asset, kCamera, small(2));
+  expectAgreement("patches-beside", asset, kPatchCamera, small(2));
 }
 
 TEST(GlPatches, SayWhatIsNotHeld) {
@@ -130,7 +123,7 @@ TEST(GlPatches, SayWhatIsNotHeld) {
   const light::Environment sky = shade::test::sky();
   shade::PictureOptions picture = small(1);
   picture.showing.mesoStructure = Kind::Shadowed;
-  const auto result = render::picture(asset, sky.project(3), sky, kCamera, picture);
+  const auto result = render::picture(asset, sky.project(3), sky, kPatchCamera, picture);
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().message.find("--transfer shadowed"), std::string::npos);
 }
@@ -141,9 +134,9 @@ TEST(Renderer, DrawsFramesAndPicturesOfTheSameAsset) {
   const sh::RgbCoefficients light = sky.project(3);
   Result<Renderer> renderer = Renderer::make(asset, light, sky, small(2));
   ASSERT_TRUE(renderer) << renderer.error().message;
-  const auto first = renderer->picture(kCamera);
+  const auto first = renderer->picture(kPatchCamera);
   ASSERT_TRUE(renderer->drawFrame(shade::test::cameraAt(Vec3(0, 0, 5), Vec3::Zero())));
-  const auto again = renderer->picture(kCamera);
+  const auto again = renderer->picture(kPatchCamera);
   ASSERT_TRUE(first && again);
   for (std::size_t i = 0; i < first->pixels.size(); ++i)
     ASSERT_TRUE((first->pixels[i] == again->pixels[i]).all()) << i;

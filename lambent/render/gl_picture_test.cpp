@@ -16,17 +16,9 @@ namespace {
 using shade::PictureOptions;
 using shade::test::cameraAt;
 using test::expectAgreement;
+using test::kCamera;
+using test::small;
 using transfer::Encoding;
-
-PictureOptions small(int samples) {
-  PictureOptions options;
-  options.width = 128;
-  options.height = 96;
-  options.samples = samples;
-  return options;
-}
-
-const scene::Camera kCamera = cameraAt(Vec3(1.5f, 1.8f, 5.0f), Vec3::Zero());
 
 TEST(GlPicture, DiffuseAtVertices) {
   for (const Encoding encoding : {Encoding::Float16, Encoding::Float32})

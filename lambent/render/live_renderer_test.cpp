@@ -22,13 +22,12 @@ namespace {
 
 using image::Image;
 using shade::test::cameraAt;
+using test::kCamera;
 using transfer::Encoding;
 using transfer::Kind;
 using transfer::Numbers;
 
 constexpr int kWidth = 128, kHeight = 96;
-const scene::Camera kCamera = cameraAt(Vec3(1.5f, 1.8f, 5.0f), Vec3::Zero());
-
 Mat3 turn(float degrees, const Vec3& axis) {
   return Eigen::AngleAxisf(degrees * float(kPi) / 180.0f, axis.normalized()).toRotationMatrix();
 }

@@ -8,8 +8,20 @@
 #include "lambent/light/environment.h"
 #include "lambent/scene/camera.h"
 #include "lambent/shade/picture_options.h"
+#include "lambent/shade/test_assets.h"
 
 namespace lambent::render::test {
+
+inline const scene::Camera kCamera = shade::test::cameraAt(Vec3(1.5f, 1.8f, 5.0f), Vec3::Zero());
+
+/// 128 × 96 pixels.
+inline shade::PictureOptions small(int samples) {
+  shade::PictureOptions options;
+  options.width = 128;
+  options.height = 96;
+  options.samples = samples;
+  return options;
+}
 
 /// How far the pictures may be apart, in 1/255 after the tone curve.
 struct Agreement {

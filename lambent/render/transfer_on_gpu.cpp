@@ -4,14 +4,12 @@
 #include <bit>
 #include <cassert>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "lambent/render/shader_sources.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/macro_transport.h"
 #include "lambent/shade/unshadowed.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::render {
 
@@ -41,13 +39,12 @@ Buffer gatherRows(const std::vector<Number>& numbers, std::size_t rows, std::siz
   const std::size_t perWord = 4 / sizeof(Number);
   const std::size_t filled = (columns + perWord - 1) / perWord * perWord;
   std::vector<Number> chunk(receivers.size() * rows * filled);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), 256),
-                    [&](const auto& range) {
-                      for (std::size_t p = range.begin(); p < range.end(); ++p)
-                        for (std::size_t row = 0; row < rows; ++row)
-                          std::copy_n(numbers.data() + (receivers[p] * rows + row) * columns,
-                                      columns, chunk.data() + (p * rows + row) * filled);
-                    });
+  work::parallelRanges(receivers.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      for (std::size_t row = 0; row < rows; ++row)
+        std::copy_n(numbers.data() + (receivers[p] * rows + row) * columns, columns,
+                    chunk.data() + (p * rows + row) * filled);
+  });
   return makeBuffer(chunk);
 }
 

@@ -14,7 +14,7 @@ constexpr std::int64_t kStep = 4096;
 /// How far inside a triangle, in steps, a texel's centre must lie to be claimed by it.
 constexpr double kInside = kStep / 64.0;
 
-struct Point {
+struct TexelPoint {
   std::int64_t x, y;
 };
 
@@ -56,7 +56,7 @@ Status checkUvs(const Mesh& mesh, int width, int height) {
   std::uint32_t firstPair[2] = {0, 0};
   int firstTexel[2] = {0, 0};
   for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
-    Point p[3];
+    TexelPoint p[3];
     for (int i = 0; i < 3; ++i) {
       const Vec2& uv = mesh.uvs[mesh.triangles[triangle][i]];
       p[i] = {std::llround(double(uv.x()) * width * kStep),
@@ -69,7 +69,7 @@ Status checkUvs(const Mesh& mesh, int width, int height) {
 
     double margin[3];
     for (int i = 0; i < 3; ++i) {
-      const Point &a = p[i], &b = p[(i + 1) % 3];
+      const TexelPoint &a = p[i], &b = p[(i + 1) % 3];
       margin[i] = kInside * std::hypot(double(b.x - a.x), double(b.y - a.y));
     }
     const auto [minX, maxX] = std::minmax({p[0].x, p[1].x, p[2].x});
@@ -80,10 +80,10 @@ Status checkUvs(const Mesh& mesh, int width, int height) {
     const int y1 = int(std::min<std::int64_t>(maxY / kStep, height - 1));
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
-        const Point c = {x * kStep + kStep / 2, y * kStep + kStep / 2};
+        const TexelPoint c = {x * kStep + kStep / 2, y * kStep + kStep / 2};
         bool inside = true;
         for (int i = 0; i < 3 && inside; ++i) {
-          const Point &a = p[i], &b = p[(i + 1) % 3];
+          const TexelPoint &a = p[i], &b = p[(i + 1) % 3];
           const std::int64_t edge = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
           inside = double(edge) > margin[i];
         }

@@ -48,7 +48,7 @@ std::vector<Mat3d> rotations(int randomCount) {
   return list;
 }
 
-std::vector<float> randomFunction(int bands, std::uint64_t seed) {
+std::vector<float> randomUnitFunction(int bands, std::uint64_t seed) {
   math::Random random(seed, 9);
   std::vector<float> f(coefficientCount(bands));
   double square = 0;
@@ -148,7 +148,7 @@ TEST(Rotation, OfOneVectorFollowsTheMatrixToOneInAMillion) {
       const Eigen::JacobiSVD<Mat3d> svd(q.cast<double>(),
                                         Eigen::ComputeFullU | Eigen::ComputeFullV);
       const Matrix d = matrixOf(bands, svd.matrixU() * svd.matrixV().transpose());
-      const std::vector<float> f = randomFunction(bands, seed++);
+      const std::vector<float> f = randomUnitFunction(bands, seed++);
       std::vector<float> g(count + 1, 77.0f);
       rotate(bands, q, f, std::span(g).first(count));
       const Eigen::VectorXd expected =
@@ -168,7 +168,7 @@ TEST(Rotation, KernelsOfEveryInstructionSetAgree) {
   if (math::bestIsa() == math::Isa::Avx512) kernels.push_back(avx512::rotationKernels());
 #endif
   for (int bands = 1; bands <= kMaxBands; ++bands) {
-    const std::vector<float> f = randomFunction(bands, 3);
+    const std::vector<float> f = randomUnitFunction(bands, 3);
     const Mat3 q = math::randomRotation(std::uint64_t(bands));
     std::vector<float> expected(f.size()), g(f.size());
     kernels[0].forBands[bands](q.data(), f.data(), expected.data());
@@ -182,7 +182,7 @@ TEST(Rotation, KernelsOfEveryInstructionSetAgree) {
 TEST(Rotation, OfAMatrixSlightlyOffKeepsTheNorm) {
   // Products of rotations in single precision drift off by a few units in the last place.
   const Mat3 q = math::randomRotation(4) * 1.00002f;
-  const std::vector<float> f = randomFunction(5, 3);
+  const std::vector<float> f = randomUnitFunction(5, 3);
   std::vector<float> g(25);
   rotate(5, q, f, g);
   double square = 0;
@@ -191,7 +191,7 @@ TEST(Rotation, OfAMatrixSlightlyOffKeepsTheNorm) {
 }
 
 TEST(Rotation, KeepsTheNormAndTheFunction) {
-  const std::vector<float> f = randomFunction(7, 1);
+  const std::vector<float> f = randomUnitFunction(7, 1);
   const Mat3 q = math::randomRotation(5);
   std::vector<float> g(49);
   rotate(7, q, f, g);
@@ -208,7 +208,7 @@ TEST(Rotation, KeepsTheNormAndTheFunction) {
 TEST(Rotation, WorksInPlaceAndOnChannels) {
   const Mat3 q = math::randomRotation(2);
   for (int bands : {3, 5, 9}) {
-    std::vector<float> f = randomFunction(bands, 4), g(f.size());
+    std::vector<float> f = randomUnitFunction(bands, 4), g(f.size());
     rotate(bands, q, f, g);
     RgbCoefficients rgb(bands);
     for (int c = 0; c < 3; ++c)

@@ -19,17 +19,12 @@ namespace {
 
 using reference::relitPicture;
 using test::addPatched;
+using test::seenFrom;
 using test::SpreadOptions;
 using transfer::Encoding;
 using transfer::Kind;
 using transfer::Numbers;
 using BiScale = transfer::BiScale<Numbers>;
-
-ReceiverView seenFrom(const Vec3& eye) {
-  ReceiverView view;
-  view.eye = eye;
-  return view;
-}
 
 sh::RgbCoefficients uniformLight(int bands) {
   sh::RgbCoefficients light(bands);

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cassert>
 
-#include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
 #include "lambent/math/directions.h"
 #include "lambent/sh/rotation.h"
 #include "lambent/shade/transfer_matrices.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::shade {
 
@@ -36,7 +36,7 @@ std::vector<float> turnedLight(const transfer::BiScale<transfer::Numbers>& biSca
   const int used = std::min(bands, light.bands), count = sh::coefficientCount(bands);
   const sh::RgbCoefficients cut = sh::withBands(light, used);
   std::vector<float> out(receivers.size() * 3 * count);
-  tbb::parallel_for(std::size_t(0), receivers.size(), [&](std::size_t p) {
+  work::parallelFor(receivers.size(), [&](std::size_t p) {
     const Mat3 patchFromWorld =
         worldFromPatch(receivers.normals[p].normalized(), biScale.tangents[p]).transpose();
     for (int c = 0; c < 3; ++c)

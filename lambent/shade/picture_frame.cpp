@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <Eigen/LU>
 
 #include "lambent/asset/check.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::shade {
 namespace {
@@ -60,7 +60,7 @@ void finishPicture(image::Image& image, const light::Environment& environment,
   for (Rgb& pixel : image.pixels) pixel = pixel.max(0.0f);
   if (!options.background) return;
   const std::vector<Vec2> positions = scene::subpixelPositions(options.samples);
-  tbb::parallel_for(0, image.height, [&](int y) {
+  work::parallelFor(image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
       const std::size_t at = std::size_t(y) * image.width + x;
       const float uncovered = 1.0f - image.alpha[at];

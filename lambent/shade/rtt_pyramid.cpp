@@ -13,7 +13,7 @@
 #include <cassert>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::shade {
 namespace {
@@ -44,7 +44,7 @@ RttLevel halved(const RttLevel& fine, std::size_t perPosition) {
   coarse.values.resize(std::size_t(coarse.width) * coarse.height * perPosition);
   const std::vector<Span> across = spans(fine.width, coarse.width);
   const std::vector<Span> along = spans(fine.height, coarse.height);
-  tbb::parallel_for(0, coarse.height, [&](int y) {
+  work::parallelFor(coarse.height, [&](int y) {
     for (int x = 0; x < coarse.width; ++x) {
       float* to = coarse.values.data() + (std::size_t(y) * coarse.width + x) * perPosition;
       for (std::size_t j = 0; j < along[y].weights.size(); ++j)
@@ -74,7 +74,7 @@ RttPyramid makePyramid(const transfer::Rtt<transfer::Floats>& rtt, int mostLevel
   first.width = rtt.width;
   first.height = rtt.height;
   first.values.resize(rtt.positionCount() * perPosition);
-  tbb::parallel_for(std::size_t(0), rtt.positionCount(), [&](std::size_t position) {
+  work::parallelFor(rtt.positionCount(), [&](std::size_t position) {
     float* to = first.values.data() + position * perPosition;
     for (int i = 0; i < coefficients; ++i) {
       const float* from = rtt.values.data() + i * rtt.planeSize() + position * rtt.viewCount() * 3;

@@ -13,15 +13,13 @@
 #include <array>
 #include <cassert>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/dispatch.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/unshadowed.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::shade {
 
@@ -106,8 +104,8 @@ Vec3 directionToViewer(const ReceiverView& view, const transfer::Receivers& rece
 template <class Of>
 std::vector<Rgb> atAll(const transfer::Receivers& receivers, const Of& of) {
   std::vector<Rgb> out(receivers.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 1024), [&](const auto& range) {
-    for (std::size_t p = range.begin(); p < range.end(); ++p) out[p] = of(p);
+  work::parallelRanges(out.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) out[p] = of(p);
   });
   return out;
 }

@@ -10,12 +10,14 @@
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/dispatch.h"
 #include "lambent/shade/lit_mesh.h"
+#include "lambent/shade/test_assets.h"
 #include "lambent/shade/transfer_matrices.h"
 
 namespace lambent::shade {
 namespace {
 
 using sh::coefficientCount;
+using test::seenFrom;
 using transfer::Encoding;
 using transfer::Kind;
 using transfer::Numbers;
@@ -264,13 +266,6 @@ asset::Asset openGlossyPoint(int bands, const Vec3& normal, float exponent,
   asset.scene.materials[0].diffuse = Rgb::Zero();
   asset.scene.materials[0].glossy = reflectance;
   return asset;
-}
-
-ReceiverView seenFrom(const Vec3& eye, std::optional<float> lobeExponent = {}) {
-  ReceiverView view;
-  view.eye = eye;
-  view.showing.lobeExponent = lobeExponent;
-  return view;
 }
 
 // Equation 12 against what it stands for: k ∫ L(s) (r+1)/2π max(0, s·R)^r ds, by quadrature. With

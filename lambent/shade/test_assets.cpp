@@ -194,6 +194,13 @@ light::Environment sky() {
   return light::Environment::latLong(std::move(image));
 }
 
+ReceiverView seenFrom(const Vec3& eye, std::optional<float> lobeExponent) {
+  ReceiverView view;
+  view.eye = eye;
+  view.showing.lobeExponent = lobeExponent;
+  return view;
+}
+
 scene::Camera cameraAt(const Vec3& eye, const Vec3& target) {
   const Vec3 back = (eye - target).normalized();
   const Vec3 right = Vec3::UnitY().cross(back).normalized();

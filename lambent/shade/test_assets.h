@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "lambent/asset/asset.h"
 #include "lambent/light/environment.h"
 #include "lambent/scene/camera.h"
+#include "lambent/shade/shade.h"
 
 namespace lambent::shade::test {
 
@@ -35,6 +37,9 @@ void addMirror(asset::Asset& asset, scene::Mesh mesh, const Rgb& reflectance);
 
 /// A sky with a warm sun, smooth enough for an image of 64×32, and its harmonics.
 light::Environment sky();
+
+/// How receivers look from a place.
+ReceiverView seenFrom(const Vec3& eye, std::optional<float> lobeExponent = {});
 
 scene::Camera cameraAt(const Vec3& eye, const Vec3& target);
 

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "lambent/shade/dispatch.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::shade {
 
@@ -86,8 +84,8 @@ std::vector<float> applyMatrices(const transfer::Matrices<Numbers>& whole,
         break;
     }
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers, 256),
-                    [&](const auto& range) { run(range.begin(), range.end()); });
+  work::parallelRanges(receivers, 256,
+                       [&](std::size_t begin, std::size_t end) { run(begin, end); });
   return out;
 }
 

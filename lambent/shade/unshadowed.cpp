@@ -13,14 +13,12 @@
 #include <string>
 #include <unordered_map>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "lambent/sh/rotation.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/macro_transport.h"
 #include "lambent/transfer/half.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::shade {
 
@@ -74,21 +72,19 @@ transfer::Vectors<Numbers> unshadowedVectors(const Receivers& receivers, int ban
   const std::size_t n = made.perVector(), each = n * std::size_t(made.channels);
   const sh::ZonalMoments cosine = sh::clampedCosine(bands);
   std::vector<float> vectors(receivers.size() * each);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, receivers.size(), kGrain),
-                    [&](const auto& range) {
-                      std::vector<double> incident(n);
-                      for (std::size_t p = range.begin(); p < range.end(); ++p) {
-                        sh::turnTo(cosine, Vec3d(receivers.normals[p].cast<double>().normalized()),
-                                   std::span<double>(incident));
-                        const Rgb& reflectance = rho[rho.size() == 1 ? 0 : p];
-                        float* to = vectors.data() + p * each;
-                        for (int c = 0; c < made.channels; ++c) {
-                          const double factor = reflectance[c] / kPi;
-                          for (const double e : incident)
-                            *to++ = float(factor * (0.0f + float(e)));  // no −0
-                        }
-                      }
-                    });
+  work::parallelRanges(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> incident(n);
+    for (std::size_t p = begin; p < end; ++p) {
+      sh::turnTo(cosine, Vec3d(receivers.normals[p].cast<double>().normalized()),
+                 std::span<double>(incident));
+      const Rgb& reflectance = rho[rho.size() == 1 ? 0 : p];
+      float* to = vectors.data() + p * each;
+      for (int c = 0; c < made.channels; ++c) {
+        const double factor = reflectance[c] / kPi;
+        for (const double e : incident) *to++ = float(factor * (0.0f + float(e)));  // no −0
+      }
+    }
+  });
   made.numbers = transfer::encode(vectors, encoding, n);
   return made;
 }
@@ -96,8 +92,8 @@ transfer::Vectors<Numbers> unshadowedVectors(const Receivers& receivers, int ban
 template <class Number>
 std::vector<Number> repeated(const std::vector<Number>& one, std::size_t times) {
   std::vector<Number> all(one.size() * times);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, times, kGrain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
+  work::parallelRanges(times, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
       std::copy(one.begin(), one.end(), all.begin() + std::ptrdiff_t(i * one.size()));
   });
   return all;
@@ -165,23 +161,20 @@ transfer::Matrices<Numbers> rotationsIntoFrames(const transfer::BiScale<Numbers>
     made.numbers.single.resize(receivers.size() * each);
   else
     made.numbers.half.resize(receivers.size() * each);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, receivers.size(), kGrain), [&](const auto& range) {
-        std::vector<float> rounded(each);
-        for (std::size_t p = range.begin(); p < range.end(); ++p) {
-          const Mat3 patchFromWorld =
-              worldFromPatch(receivers.normals[p].normalized(), biScale.tangents[p]).transpose();
-          const std::vector<double> rotation =
-              sh::rotationMatrix(bands, patchFromWorld.cast<double>());
-          for (std::size_t k = 0; k < each; ++k) rounded[k] = float(rotation[k]);
-          if (single)
-            std::copy(rounded.begin(), rounded.end(),
-                      made.numbers.single.begin() + std::ptrdiff_t(p * each));
-          else
-            transfer::halvesFromFloats(rounded,
-                                       std::span(made.numbers.half).subspan(p * each, each));
-        }
-      });
+  work::parallelRanges(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> rounded(each);
+    for (std::size_t p = begin; p < end; ++p) {
+      const Mat3 patchFromWorld =
+          worldFromPatch(receivers.normals[p].normalized(), biScale.tangents[p]).transpose();
+      const std::vector<double> rotation = sh::rotationMatrix(bands, patchFromWorld.cast<double>());
+      for (std::size_t k = 0; k < each; ++k) rounded[k] = float(rotation[k]);
+      if (single)
+        std::copy(rounded.begin(), rounded.end(),
+                  made.numbers.single.begin() + std::ptrdiff_t(p * each));
+      else
+        transfer::halvesFromFloats(rounded, std::span(made.numbers.half).subspan(p * each, each));
+    }
+  });
   return made;
 }
 

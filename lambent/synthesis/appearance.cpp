@@ -11,12 +11,12 @@
 #include <cassert>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -49,7 +49,7 @@ class Responses {
     }
     means_.resize(planes_.size());
     std::vector<double> variance(planes_.size(), 0.0);
-    tbb::parallel_for(std::size_t(0), planes_.size(), [&](std::size_t c) {
+    work::parallelFor(planes_.size(), [&](std::size_t c) {
       means_[c] = (planes_[c].cast<double>().colwise().mean().transpose()).cast<float>();
       for (Eigen::Index r = 0; r < rows_; ++r) {
         variance[c] += double(
@@ -74,7 +74,7 @@ class Responses {
     }
     Eigen::MatrixXf product(rows_, right.cols());
     constexpr Eigen::Index kRows = 256;
-    tbb::parallel_for(Eigen::Index(0), (rows_ + kRows - 1) / kRows, [&](Eigen::Index b) {
+    work::parallelFor((rows_ + kRows - 1) / kRows, [&](Eigen::Index b) {
       const Eigen::Index first = b * kRows, count = std::min(kRows, rows_ - first);
       RowMatrix sum = RowMatrix::Zero(count, right.cols());
       for (std::size_t c = 0; c < planes_.size(); ++c) {
@@ -90,7 +90,7 @@ class Responses {
   Eigen::MatrixXf transposeTimes(const Eigen::MatrixXf& right) const {
     Eigen::MatrixXf product(columns(), right.cols());
     const Eigen::RowVectorXf sums = right.colwise().sum();
-    tbb::parallel_for(std::size_t(0), planes_.size(), [&](std::size_t c) {
+    work::parallelFor(planes_.size(), [&](std::size_t c) {
       product.middleRows(Eigen::Index(c) * columns_, columns_) =
           weights_[c].asDiagonal() * (planes_[c].transpose() * right - means_[c] * sums);
     });

@@ -4,11 +4,11 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 #include "lambent/synthesis/test_patches.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -106,8 +106,7 @@ TEST(Appearance, TheSameAtAnyNumberOfThreads) {
   const transfer::SimulatedRtt rtt = patchOf(stuccoAlbedo, 32, 4);
   std::vector<float> values[2];
   for (int i = 0; i < 2; ++i) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      std::size_t(1 + 3 * i));
+    const work::ThreadLimit threads(1 + 3 * i);
     values[i] = appearanceOf(rtt).values;
   }
   EXPECT_EQ(std::memcmp(values[0].data(), values[1].data(), 4 * values[0].size()), 0);

@@ -13,15 +13,12 @@
 #include <cmath>
 #include <queue>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "lambent/math/random.h"
+#include "lambent/synthesis/manifold.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// Visits all vertices of a level by rising distance over its edges from those given (distance 0),
 /// and goes on at the least vertex not yet seen where components end: visit(vertex, from), `from`
@@ -124,17 +121,17 @@ void relax(const Graph& graph, int passes, std::vector<Vec2>& q) {
   std::vector<Vec2> next(q.size());
   const auto pull = [](float d) { return d * (1.0f - 4.0f * d * d); };  // ∝ about sin 2πd
   for (int pass = 0; pass < passes; ++pass) {
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, std::uint32_t(q.size()), 1024),
-                      [&](const tbb::blocked_range<std::uint32_t>& range) {
-                        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-                          Vec2 sum = Vec2::Zero();
-                          for (const Edge& e : graph.of(i)) {
-                            const Vec2 d = wrapped(q[e.to] - e.offset - q[i]);
-                            sum += Vec2(pull(d.x()), pull(d.y()));
-                          }
-                          next[i] = q[i] + 0.8f / std::max(float(graph.of(i).size()), 1.0f) * sum;
-                        }
-                      });
+    work::parallelRanges(
+        std::uint32_t(q.size()), 1024, [&](std::uint32_t begin, std::uint32_t end) {
+          for (std::uint32_t i = begin; i < end; ++i) {
+            Vec2 sum = Vec2::Zero();
+            for (const Edge& e : graph.of(i)) {
+              const Vec2 d = wrapped(q[e.to] - e.offset - q[i]);
+              sum += Vec2(pull(d.x()), pull(d.y()));
+            }
+            next[i] = q[i] + 0.8f / std::max(float(graph.of(i).size()), 1.0f) * sum;
+          }
+        });
     q.swap(next);
   }
 }
@@ -147,7 +144,7 @@ void scatter(const MesoMesh& mesh, std::size_t level, const PatchLevel& patch,
   constexpr int kPlaces = 24;      // that a jump chooses among at most
   const Cells cells = cellsOf(mesh, level, options);
   std::vector<Vec2> jump(cells.centres.size());
-  tbb::parallel_for(std::size_t(0), jump.size(), [&](std::size_t c) {
+  work::parallelFor(jump.size(), [&](std::size_t c) {
     const Vec2 from = q[cells.centres[c]];
     const std::vector<PatchLevel::Place> places = patch.mostSimilar(from, kPlaces, kApart);
     jump[c] = Vec2::Zero();

@@ -14,10 +14,8 @@
 #include <cmath>
 #include <limits>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "lambent/math/random.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -107,14 +105,12 @@ void Correction::pass(std::vector<Vec2>& q) const {
   std::vector<Vec2> next;
   for (const std::vector<std::uint32_t>& members : classes_) {
     next.resize(members.size());
-    const auto all = tbb::blocked_range<std::size_t>(0, members.size(), 512);
-    tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
-      for (std::size_t m = range.begin(); m < range.end(); ++m) {
-        next[m] = corrected(members[m], q);
-      }
+    constexpr std::size_t kGrain = 512;
+    work::parallelRanges(members.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t m = begin; m < end; ++m) next[m] = corrected(members[m], q);
     });
-    tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
-      for (std::size_t m = range.begin(); m < range.end(); ++m) q[members[m]] = next[m];
+    work::parallelRanges(members.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t m = begin; m < end; ++m) q[members[m]] = next[m];
     });
   }
 }

@@ -9,8 +9,6 @@
 namespace lambent::synthesis {
 namespace {
 
-constexpr std::uint32_t kNone = Manifold::kNone;
-
 /// For every vertex the least vertex at the same position. −0 equals +0.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
   using Key = std::array<std::uint32_t, 3>;
@@ -32,12 +30,12 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
 
 void pairHalfEdges(const std::vector<std::uint32_t>& welded,
                    const std::vector<scene::Triangle>& triangles, Manifold& m) {
-  struct Edge {
+  struct SharedEdge {
     std::uint64_t ends;
     std::uint32_t halfEdge;
     bool upwards;
   };
-  std::vector<Edge> edges;
+  std::vector<SharedEdge> edges;
   edges.reserve(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     std::uint32_t v[3];
@@ -54,7 +52,7 @@ void pairHalfEdges(const std::vector<std::uint32_t>& welded,
       edges.push_back({std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), 3 * t + k, a < b});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+  std::sort(edges.begin(), edges.end(), [](const SharedEdge& a, const SharedEdge& b) {
     return a.ends != b.ends ? a.ends < b.ends : a.halfEdge < b.halfEdge;
   });
   for (std::size_t i = 0, end; i < edges.size(); i = end) {

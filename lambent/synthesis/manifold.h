@@ -9,6 +9,9 @@
 
 namespace lambent::synthesis {
 
+/// In a table of numbers: no such vertex, half-edge or triangle.
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
 /// Vertices of equal position are taken as one, and triangles hang together over each edge that
 /// exactly two of them share with equal sense. Along every other edge, and at points where several
 /// fans of triangles touch, the surface is cut; so each vertex of what is left has one fan of
@@ -17,8 +20,6 @@ namespace lambent::synthesis {
 /// Half-edge 3t + k runs from corner k to corner k+1 of triangle t, and stands for corner k too.
 /// Triangles with two corners at one place have no part in it (all their entries are kNone).
 struct Manifold {
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-
   std::vector<std::uint32_t> vertexOfCorner;  ///< 3 per triangle of the mesh
   std::vector<std::uint32_t> twin;  ///< the half-edge that runs the other way, or kNone at a border
   /// The first corner of each vertex's fan, counter-clockwise; at a border that which has no

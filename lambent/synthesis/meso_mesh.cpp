@@ -12,7 +12,6 @@
 #include <cassert>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
 
 #include "lambent/scene/shapes.h"
@@ -20,6 +19,7 @@
 #include "lambent/synthesis/manifold.h"
 #include "lambent/synthesis/meso_neighbours.h"
 #include "lambent/synthesis/surface_samples.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -75,7 +75,7 @@ Result<MesoMesh> mesoMesh(const scene::Mesh& mesh, const TangentField& field,
   meso.levelEnd = spread->levelEnd;
   const std::size_t count = spread->samples.size();
   meso.positions.resize(count), meso.normals.resize(count), meso.tangents.resize(count);
-  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+  work::parallelFor(count, [&](std::size_t i) {
     const SurfaceSample& s = spread->samples[i];
     const scene::Triangle& corners = mesh.triangles[s.triangle];
     const float weights[3] = {1.0f - s.u - s.v, s.u, s.v};

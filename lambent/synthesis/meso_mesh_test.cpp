@@ -6,10 +6,10 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 #include <Eigen/Geometry>
 
 #include "lambent/scene/shapes.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -165,8 +165,7 @@ TEST(MesoMesh, OneTriangleAndManySmallPartsWork) {
 TEST(MesoMesh, TheSameAtAnyNumberOfThreads) {
   MesoMesh m[2];
   for (int i = 0; i < 2; ++i) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      std::size_t(1 + 3 * i));
+    const work::ThreadLimit threads(1 + 3 * i);
     m[i] = mesoOf(scene::torus(1.0f, 0.4f, 40, 20), {.vertices = 20000});
   }
   ASSERT_EQ(m[0].positions.size(), m[1].positions.size());

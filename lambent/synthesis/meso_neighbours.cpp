@@ -2,30 +2,15 @@
 
 #include <algorithm>
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <nanoflann.hpp>
+
+#include "lambent/synthesis/point_tree.h"
+#include "lambent/work/runner.h"
 
 namespace lambent::synthesis {
 namespace {
 
-constexpr std::uint32_t kNone = Manifold::kNone;
 constexpr float kTurnedAway = -0.2f;  ///< least cosine between fronts of neighbours
-
-struct Points {
-  std::span<const SurfaceSample> samples;
-  std::size_t kdtree_get_point_count() const { return samples.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return samples[i].position[Eigen::Index(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>,
-                                                 Points, 3, std::uint32_t>;
 
 float squaredDistanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
@@ -82,36 +67,36 @@ MesoMesh::Level neighboursOf(const scene::Mesh& mesh, const Manifold& manifold,
                              const std::vector<Vec3>& faceNormals,
                              std::span<const SurfaceSample> samples, int wanted) {
   const auto count = std::uint32_t(samples.size());
-  const Points points{samples};
-  const Tree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(12));
+  const Points points{samples.size(),
+                      [&](std::size_t i) -> const Vec3& { return samples[i].position; }};
+  const PointTree<decltype(points.position)> tree(3, points,
+                                                  nanoflann::KDTreeSingleIndexAdaptorParams(12));
   // Some of the nearest may be another sheet's, and the first is the sample itself.
   const auto asked = std::min<std::size_t>(std::size_t(wanted) * 3 / 2 + 2, count);
 
   std::vector<std::uint32_t> table(std::size_t(count) * std::size_t(wanted), kNone);
-  tbb::enumerable_thread_specific<Flood> floods([&] { return Flood(mesh.triangles.size()); });
-  tbb::parallel_for(
-      tbb::blocked_range<std::uint32_t>(0, count, 256),
-      [&](const tbb::blocked_range<std::uint32_t>& range) {
-        Flood& flood = floods.local();
-        std::vector<std::uint32_t> found(asked), triangles(asked);
-        std::vector<float> distances(asked);
-        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-          const SurfaceSample& own = samples[i];
-          const std::size_t n =
-              tree.knnSearch(own.position.data(), asked, found.data(), distances.data());
-          if (n == 0) continue;
-          triangles.clear();
-          for (std::size_t k = 0; k < n; ++k) triangles.push_back(samples[found[k]].triangle);
-          flood.run(mesh, manifold, own.triangle, own.position, distances[n - 1], triangles);
-          const Vec3& normal = faceNormals[own.triangle];
-          int kept = 0;
-          for (std::size_t k = 0; k < n && kept < wanted; ++k) {
-            if (found[k] == i || !flood.reached(triangles[k])) continue;
-            if (normal.dot(faceNormals[triangles[k]]) < kTurnedAway) continue;
-            table[std::size_t(i) * std::size_t(wanted) + std::size_t(kept++)] = found[k];
-          }
-        }
-      });
+  const auto search = [&](const work::Chunk& chunk, Flood& flood) {
+    std::vector<std::uint32_t> found(asked), triangles(asked);
+    std::vector<float> distances(asked);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const SurfaceSample& own = samples[i];
+      const std::size_t n =
+          tree.knnSearch(own.position.data(), asked, found.data(), distances.data());
+      if (n == 0) continue;
+      triangles.clear();
+      for (std::size_t k = 0; k < n; ++k) triangles.push_back(samples[found[k]].triangle);
+      flood.run(mesh, manifold, own.triangle, own.position, distances[n - 1], triangles);
+      const Vec3& normal = faceNormals[own.triangle];
+      int kept = 0;
+      for (std::size_t k = 0; k < n && kept < wanted; ++k) {
+        if (found[k] == i || !flood.reached(triangles[k])) continue;
+        if (normal.dot(faceNormals[triangles[k]]) < kTurnedAway) continue;
+        table[i * std::size_t(wanted) + std::size_t(kept++)] = found[k];
+      }
+    }
+  };
+  // Nobody listens, so that nobody stops it.
+  (void)work::Runner().run({}, work::Chunks(count, 256), Flood(mesh.triangles.size()), search);
 
   MesoMesh::Level level;
   level.begin.resize(std::size_t(count) + 1, 0);

@@ -12,30 +12,15 @@
 #include <limits>
 #include <string>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <Eigen/Geometry>
-#include <nanoflann.hpp>
 
 #include "lambent/scene/texel_map.h"
+#include "lambent/synthesis/point_tree.h"
+#include "lambent/work/parallel_for.h"
 #include "lambent/work/runner.h"
 
 namespace lambent::synthesis {
 namespace {
-
-struct Points {
-  const std::vector<Vec3>& positions;
-  std::size_t kdtree_get_point_count() const { return positions.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return positions[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>,
-                                                 Points, 3, std::uint32_t>;
 
 /// Buffers of one thread's searches.
 struct Search {
@@ -45,7 +30,7 @@ struct Search {
 
 /// The meso-vertex for a point P of normal N: of the k nearest, those that face as N does, the one
 /// nearest to the line through P along N. If none faces so, of ever more; in the end the nearest.
-std::uint32_t shoot(const Tree& tree, const MesoMesh& mesh, const Vec3& at, const Vec3& normal,
+std::uint32_t shoot(const auto& tree, const MesoMesh& mesh, const Vec3& at, const Vec3& normal,
                     std::size_t neighbours, Search& search) {
   const std::size_t count = mesh.positions.size();
   for (std::size_t k = std::min(neighbours, count);; k = std::min(4 * k, count)) {
@@ -102,7 +87,7 @@ std::vector<std::uint32_t> coveredByBlocks(const scene::TexelMap& map) {
   return texels;
 }
 
-std::uint16_t wrapped(double place) {
+std::uint16_t codeOf(double place) {
   return static_cast<std::uint16_t>(
       static_cast<std::int64_t>(std::llround((place - std::floor(place)) * 65536.0)) & 0xffff);
 }
@@ -132,10 +117,11 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
     return report::badInput("the atlas covers no texel of a " + std::to_string(options.size) + "×" +
                             std::to_string(options.size) + " map; ask for a larger one");
 
-  const Points points{mesh.positions};
+  const Points points{mesh.positions.size(),
+                      [&](std::size_t i) -> const Vec3& { return mesh.positions[i]; }};
   nanoflann::KDTreeSingleIndexAdaptorParams parameters;
   parameters.leaf_max_size = 16;
-  const Tree tree(3, points, parameters);
+  const PointTree<decltype(points.position)> tree(3, points, parameters);
 
   transfer::IdMap ids;
   ids.width = ids.height = options.size;
@@ -159,9 +145,9 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
     const Vec3& tangent = mesh.tangents[v];
     const Vec3 across = mesh.normals[v].cross(tangent);
     ids.ids[2 * texel] =
-        wrapped(double(coordinates[v].x()) + double(offset.dot(tangent)) / options.patchSize.x());
+        codeOf(double(coordinates[v].x()) + double(offset.dot(tangent)) / options.patchSize.x());
     ids.ids[2 * texel + 1] =
-        wrapped(double(coordinates[v].y()) + double(offset.dot(across)) / options.patchSize.y());
+        codeOf(double(coordinates[v].y()) + double(offset.dot(across)) / options.patchSize.y());
   };
   const work::Runner runner(progress, options.threads);
   const Status placed = runner.run({"id map", "texels"}, work::Chunks(covered.size(), 1024),
@@ -174,8 +160,8 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
   std::vector<std::uint8_t> full(map.size());
   for (const std::uint32_t texel : covered) full[texel] = 1;
   const std::vector<std::uint32_t> nearest = scene::nearestFull(options.size, options.size, full);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, map.size()), [&](const auto& range) {
-    for (std::size_t texel = range.begin(); texel < range.end(); ++texel) {
+  work::parallelRanges(map.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t texel = begin; texel < end; ++texel) {
       if (full[texel]) continue;  // others read these: they are not written here
       ids.ids[2 * texel] = ids.ids[2 * std::size_t(nearest[texel])];
       ids.ids[2 * texel + 1] = ids.ids[2 * std::size_t(nearest[texel]) + 1];

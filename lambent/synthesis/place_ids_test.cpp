@@ -7,12 +7,12 @@
 #include <cstdlib>
 #include <limits>
 
-#include <tbb/global_control.h>
 #include <Eigen/Geometry>
 
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/scene/texel_map.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -148,7 +148,7 @@ TEST(PlaceIds, EveryOtherTexelHasTheNearestChartTexelsId) {
   }
   EXPECT_GT(outside, 100u);
 
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const work::ThreadLimit one(1);
   const Result<transfer::IdMap> alone = placeIds(atlas, mesh, q, {.size = size}, {});
   ASSERT_TRUE(alone);
   EXPECT_EQ(alone->ids, ids->ids);

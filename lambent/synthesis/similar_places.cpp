@@ -9,9 +9,9 @@
 #include <cassert>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <Eigen/Eigenvalues>
+
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -68,13 +68,12 @@ PatchLevel::PatchLevel(const Appearance& appearance, const Vec2& size, float spa
                         std::max(step.y(), 2.0f / float(gridHeight_)));
   const auto points = std::uint32_t(gridWidth_ * gridHeight_);
   std::vector<std::vector<Found>> found(points);
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, points, 64),
-                    [&](const tbb::blocked_range<std::uint32_t>& range) {
-                      std::vector<float> distances;
-                      for (std::uint32_t p = range.begin(); p < range.end(); ++p) {
-                        found[p] = search(p, candidates, separation, distances);
-                      }
-                    });
+  work::parallelRanges(points, 64, [&](std::uint32_t begin, std::uint32_t end) {
+    std::vector<float> distances;
+    for (std::uint32_t p = begin; p < end; ++p) {
+      found[p] = search(p, candidates, separation, distances);
+    }
+  });
   similar_.resize(std::size_t(points) * std::size_t(candidates_));
   for (std::uint32_t p = 0; p < points; ++p) {
     for (std::size_t k = 0; k < std::size_t(candidates_); ++k) {
@@ -98,7 +97,7 @@ void PatchLevel::prefilter(const Vec2& sigma) {
       total += w;
     }
     std::vector<float> filtered(values_.size(), 0.0f);
-    tbb::parallel_for(0, height_, [&](int y) {
+    work::parallelFor(height_, [&](int y) {
       for (int x = 0; x < width_; ++x) {
         float* out = filtered.data() +
                      (std::size_t(y) * std::size_t(width_) + std::size_t(x)) * std::size_t(stride_);
@@ -156,7 +155,7 @@ void PatchLevel::findWindows(const Vec2& step) {
   // No further apart than lets the window cover the patch once.
   const Vec2 apart(std::min(step.x(), 1.0f / kSide), std::min(step.y(), 1.0f / kSide));
   Eigen::MatrixXf all(full, points);
-  tbb::parallel_for(Eigen::Index(0), points, [&](Eigen::Index p) {
+  work::parallelFor(points, [&](Eigen::Index p) {
     Descriptor d;
     Eigen::Index row = 0;
     for (int y = -kWindow; y <= kWindow; ++y) {

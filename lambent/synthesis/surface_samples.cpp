@@ -15,17 +15,17 @@
 #include <cassert>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 #include <Eigen/Geometry>
 
 #include "lambent/math/random.h"
 #include "lambent/math/sequences.h"
+#include "lambent/synthesis/manifold.h"
+#include "lambent/work/parallel_for.h"
+#include "lambent/work/parallel_sort.h"
 
 namespace lambent::synthesis {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::uint32_t kCandidates = 6;  ///< for each sample
 /// N r² / area that six candidates each reach on a plane (measured; a plane filled to the brim by
 /// chance has 0.70).
@@ -35,7 +35,7 @@ std::vector<SurfaceSample> candidates(const scene::Mesh& mesh, const std::vector
                                       std::uint32_t count, std::uint64_t seed) {
   std::vector<SurfaceSample> all(count);
   const auto sobolSeed = std::uint32_t(math::hashCombine(seed, 0x5a3eu));
-  tbb::parallel_for(std::uint32_t(0), count, [&](std::uint32_t i) {
+  work::parallelFor(count, [&](std::uint32_t i) {
     // One number chooses the triangle, and what it has left over a place along its side.
     const Vec2 s = math::sobol2(i, sobolSeed);
     const double target = double(s.x()) * sums.back();
@@ -80,10 +80,10 @@ class Cells {
       }
       return c;
     };
-    tbb::parallel_for(std::uint32_t(0), count, [&](std::uint32_t i) {
+    work::parallelFor(count, [&](std::uint32_t i) {
       sorted_[i] = {key(cellOf(all[i].position)), i};
     });
-    tbb::parallel_sort(sorted_.begin(), sorted_.end());
+    work::parallelSort(sorted_);
     for (std::uint32_t i = 0; i < count; ++i) {
       if (i == 0 || sorted_[i].first != sorted_[i - 1].first) begin_.push_back(i);
     }
@@ -99,7 +99,7 @@ class Cells {
     }
     around_.resize(cells);
     phases_.resize(8);
-    tbb::parallel_for(std::uint32_t(0), cells, [&](std::uint32_t c) {
+    work::parallelFor(cells, [&](std::uint32_t c) {
       const auto at = cellOf(all[sorted_[begin_[c]].second].position);
       std::size_t n = 0;
       for (std::uint32_t x = at[0] - 1; x <= at[0] + 1; ++x)
@@ -195,7 +195,7 @@ Result<SurfaceSamples> spreadOver(const scene::Mesh& mesh, const Manifold& manif
     // Samples by place in the cells' sequence, so that what is near lies near in memory.
     std::vector<SurfaceSample> local(following.size());
     std::vector<std::uint8_t> old(following.size(), 0);
-    tbb::parallel_for(std::uint32_t(0), cells.count(), [&](std::uint32_t c) {
+    work::parallelFor(cells.count(), [&](std::uint32_t c) {
       for (std::uint32_t i = cells.begin(c); i < cells.end(c); ++i) {
         local[i] = all[cells.candidate(i)];
         if (accepted[cells.candidate(i)]) {
@@ -209,7 +209,7 @@ Result<SurfaceSamples> spreadOver(const scene::Mesh& mesh, const Manifold& manif
     // cells are filled to the brim while others are still empty.
     for (std::uint32_t turn = 0; turn < 3; ++turn) {
       for (const std::vector<std::uint32_t>& phase : cells.phases()) {
-        tbb::parallel_for(std::size_t(0), phase.size(), [&](std::size_t k) {
+        work::parallelFor(phase.size(), [&](std::size_t k) {
           const std::uint32_t c = phase[k];
           const std::uint32_t from = std::min(cells.begin(c) + turn, cells.end(c));
           const std::uint32_t to = turn == 2 ? cells.end(c) : std::min(from + 1, cells.end(c));

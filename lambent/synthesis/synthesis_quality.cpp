@@ -6,10 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include "lambent/synthesis/meso_offsets.h"
 #include "lambent/synthesis/similar_places.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -44,7 +43,7 @@ SynthesisQuality qualityOf(const MesoMesh& mesh, const Appearance& appearance,
   constexpr std::uint32_t kChunk = 4096;
   const std::uint32_t count = mesh.levelEnd[level];
   std::vector<Counts> chunks((count + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t(0), chunks.size(), [&](std::size_t chunk) {
+  work::parallelFor(chunks.size(), [&](std::size_t chunk) {
     Counts& c = chunks[chunk];
     PatchLevel::Descriptor own;
     const auto end = std::min(count, std::uint32_t(chunk + 1) * kChunk);

@@ -16,13 +16,12 @@
 #include <cstdio>
 #include <string>
 
-#include <tbb/parallel_for.h>
-
 #include "lambent/math/random.h"
 #include "lambent/synthesis/coarse_layout.h"
 #include "lambent/synthesis/correction.h"
 #include "lambent/synthesis/meso_offsets.h"
 #include "lambent/synthesis/similar_places.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -37,7 +36,8 @@ void inherit(const MesoMesh& mesh, std::size_t level, std::span<const Vec2> offs
   const Vec2 meets = 0.25f * mesh.spacing(level - 1) * options.patchSize.cwiseInverse();
   q.resize(end);
   std::vector<std::uint8_t> without(end - first, 0);
-  tbb::parallel_for(first, end, [&](std::uint32_t v) {
+  work::parallelFor(end - first, [&](std::uint32_t k) {
+    const std::uint32_t v = first + k;
     bool found = false;
     Vec2 sum = Vec2::Zero(), nearest = Vec2::Zero();
     float count = 0.0f;

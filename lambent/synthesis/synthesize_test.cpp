@@ -4,13 +4,13 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 #include <Eigen/Geometry>
 
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/synthesis/synthesis_quality.h"
 #include "lambent/synthesis/test_patches.h"
+#include "lambent/work/thread_limit.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -191,8 +191,7 @@ TEST(Synthesize, TheSameAtAnyNumberOfThreadsAndAnotherForEverySeed) {
   options.patchSize = Vec2(0.6f, 0.6f);
   std::vector<Vec2> q[2];
   for (int i = 0; i < 2; ++i) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      std::size_t(1 + 3 * i));
+    const work::ThreadLimit threads(1 + 3 * i);
     q[i] = synthesized(mesh, stucco(), options);
   }
   EXPECT_EQ(std::memcmp(q[0].data(), q[1].data(), sizeof(Vec2) * q[0].size()), 0);

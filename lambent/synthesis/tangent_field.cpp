@@ -35,7 +35,6 @@ namespace {
 using Complex = std::complex<double>;
 using Field = ConnectionSolver::Field;
 using Matrix = ConnectionSolver::Matrix;
-constexpr std::uint32_t kNone = Manifold::kNone;
 
 /// Per vertex of the manifold a plane with axes x and y, and per half-edge its angle in there.
 struct TangentPlanes {

@@ -9,9 +9,8 @@ namespace lambent::view {
 
 namespace {
 
-constexpr double kRadians = kPi / 180.0;
-constexpr double kPole = 1.0 * kRadians;  // how near the sight may come to `up`
-constexpr double kMargin = 0.93;          // of the picture is used, as scene::frameAutomatically
+constexpr double kPole = 1.0 * kRadiansPerDegree;  // how near the sight may come to `up`
+constexpr double kMargin = 0.93;  // of the picture is used, as scene::frameAutomatically
 
 struct Axes {
   Vec3d right, up, back;  // of the camera, in the world
@@ -30,8 +29,9 @@ Axes axesOf(const LookAt& look) {
 
 /// Height of the picture in metres, at the target's distance.
 double heightAt(const LookAt& look, double distance) {
-  return look.orthographicHalfHeight ? 2.0 * *look.orthographicHalfHeight
-                                     : 2.0 * distance * std::tan(0.5 * look.verticalFov * kRadians);
+  return look.orthographicHalfHeight
+             ? 2.0 * *look.orthographicHalfHeight
+             : 2.0 * distance * std::tan(0.5 * look.verticalFov * kRadiansPerDegree);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ LookAt lookAtOf(const scene::Camera& camera, const scene::Box& box) {
   const Vec3d right = up.cross(-sight);
   const bool level = std::abs(right.y()) < 1e-4 && up.y() > 1e-3;
   look.up = level ? Vec3(Vec3::UnitY()) : Vec3(up.cast<float>());
-  look.verticalFov = double(camera.verticalFov) / kRadians;
+  look.verticalFov = double(camera.verticalFov) / kRadiansPerDegree;
   if (camera.orthographicHalfHeight)
     look.orthographicHalfHeight = double(*camera.orthographicHalfHeight);
   return look;
@@ -114,7 +114,7 @@ LookAt framed(const LookAt& look, const scene::Box& box, double aspect) {
   if (box.empty()) return look;
   const Axes axes = axesOf(look);
   const Vec3d center = box.center().cast<double>();
-  const double ty = kMargin * std::tan(0.5 * look.verticalFov * kRadians);
+  const double ty = kMargin * std::tan(0.5 * look.verticalFov * kRadiansPerDegree);
   const double tx = ty * std::max(aspect, 1e-3);
   const double smallest = std::max(double(box.diagonal()), 1e-6);
   double distance = 0.0, half = 0.0, depth = 0.0;

@@ -11,8 +11,6 @@ namespace lambent::view {
 
 namespace {
 
-constexpr double kRadians = kPi / 180.0;
-
 Eigen::Quaterniond quaternion(const Rotation& r) {
   return Eigen::Quaterniond(r[3], r[0], r[1], r[2]);
 }
@@ -48,19 +46,21 @@ void turnObject(ViewState& state, const Vec3d& pivot, const Vec3d& axis, double 
 }
 
 Vec3 directionOf(const Disc& disc) {
-  return math::directionFromAzimuthElevation(disc.azimuth * kRadians, disc.elevation * kRadians)
+  return math::directionFromAzimuthElevation(disc.azimuth * kRadiansPerDegree,
+                                             disc.elevation * kRadiansPerDegree)
       .cast<float>();
 }
 
 void aim(Disc& disc, const Vec3& direction) {
   const Vec3d d = direction.cast<double>().normalized();
   const auto [azimuth, elevation] = math::azimuthElevationOf(d);
-  disc.elevation = elevation / kRadians;
-  if (std::hypot(d.x(), d.z()) > 1e-9) disc.azimuth = azimuth / kRadians;
+  disc.elevation = elevation / kRadiansPerDegree;
+  if (std::hypot(d.x(), d.z()) > 1e-9) disc.azimuth = azimuth / kRadiansPerDegree;
 }
 
 light::Environment environmentOf(const Disc& disc) {
-  return light::Environment::disc(directionOf(disc), disc.diameter * kRadians, disc.radiance);
+  return light::Environment::disc(directionOf(disc), disc.diameter * kRadiansPerDegree,
+                                  disc.radiance);
 }
 
 scene::Camera cameraOf(const LookAt& look) {
@@ -71,7 +71,7 @@ scene::Camera cameraOf(const LookAt& look) {
   world.topLeftCorner<3, 3>() << right, back.cross(right), back;
   world.topRightCorner<3, 1>() = look.position.cast<double>();
   camera.worldFromCamera = world.cast<float>();
-  camera.verticalFov = float(look.verticalFov * kRadians);
+  camera.verticalFov = float(look.verticalFov * kRadiansPerDegree);
   if (look.orthographicHalfHeight)
     camera.orthographicHalfHeight = float(*look.orthographicHalfHeight);
   return camera;

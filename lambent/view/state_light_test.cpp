@@ -8,7 +8,7 @@
 namespace lambent::view {
 namespace {
 
-ViewState moved() {
+ViewState turnedWithTwoDiscs() {
   ViewState state;
   state.objectRotation = turned({0, 0, 0, 1}, Vec3d(1, 2, -1).normalized(), 0.8);
   state.environmentRotation = turned({0, 0, 0, 1}, Vec3d(0, 1, 0.3).normalized(), -1.9);
@@ -31,7 +31,7 @@ void expectSame(const sh::RgbCoefficients& a, const sh::RgbCoefficients& b) {
 TEST(StateLight, IsTheProjectionOfWhatTheAssetSees) {
   for (const int bands : {1, 4, 5, 7}) {
     StateLight light(sky(), bands);
-    const ViewState state = moved();
+    const ViewState state = turnedWithTwoDiscs();
     expectSame(light.asset(state), assetEnvironment(state, sky()).project(bands));
   }
 }
@@ -39,7 +39,7 @@ TEST(StateLight, IsTheProjectionOfWhatTheAssetSees) {
 TEST(StateLight, TakesTheWindowOfTheWhole) {
   for (const char* window : {"hann:6", "lanczos", "minimal"}) {
     StateLight light(sky(), 5);
-    ViewState state = moved();
+    ViewState state = turnedWithTwoDiscs();
     state.window = window;
     sh::RgbCoefficients expected = assetEnvironment(state, sky()).project(5);
     const sh::RgbCoefficients hard = expected;
@@ -51,7 +51,7 @@ TEST(StateLight, TakesTheWindowOfTheWhole) {
 
 TEST(StateLight, FollowsEveryChange) {
   StateLight kept(sky(), 5);
-  ViewState state = moved();
+  ViewState state = turnedWithTwoDiscs();
   const auto fresh = [&] { return StateLight(sky(), 5).asset(state); };
   expectSame(kept.asset(state), fresh());
   state.discs[1].radiance = Rgb(1, 1, 1);

@@ -17,6 +17,9 @@
 
 namespace lambent::view {
 
+/// States are written in degrees, for people read them.
+inline constexpr double kRadiansPerDegree = kPi / 180.0;
+
 /// Looks from `position` to `target`, which differ; `up` is not along the line of sight.
 struct LookAt {
   Vec3 position = Vec3(0, 0, 3), target = Vec3::Zero(), up = Vec3::UnitY();

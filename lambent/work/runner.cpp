@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "lambent/work/flush_denormals.h"
+#include "lambent/work/fork_join.h"
 
 namespace lambent::work {
 
@@ -76,13 +77,16 @@ Status Runner::runChunks(const Stage& stage, const Chunks& chunks,
   Teller teller(progress_, stage, chunks.items());
   teller.begin();
   if (teller.stopped()) return report::cancelled();
+  ForkJoin loop(slots());
   arena_->threads.execute([&] {
     tbb::parallel_for(chunks.range().begin, chunks.range().end, [&](std::size_t index) {
       if (teller.stopped()) return;
+      const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+      const ForkJoin::Part part(loop, slot);
       const Chunk chunk = chunks[index];
       {
         const FlushDenormals flush;
-        work(chunk, static_cast<std::size_t>(tbb::this_task_arena::current_thread_index()));
+        work(chunk, slot);
       }
       teller.finished(chunk.size());
     });

@@ -1,7 +1,6 @@
 #include "lambent/work/runner.h"
 
 #include <gtest/gtest.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +14,7 @@
 #include <thread>
 
 #include "lambent/work/flush_denormals.h"
+#include "lambent/work/parallel_for.h"
 
 namespace lambent::work {
 namespace {
@@ -192,7 +192,7 @@ TEST(Runner, FlushesDenormalsInsideAndRestoresThem) {
   EXPECT_NE(half(smallest), 0.0f);
   // The threads that worked are as they were, too.
   std::atomic<int> flushed{0};
-  tbb::parallel_for(0, 300, [&](int) {
+  work::parallelFor(300, [&](int) {
     if (half(smallest) == 0.0f) ++flushed;
   });
   EXPECT_EQ(flushed, 0);

@@ -4,7 +4,10 @@
 // TO, installs its dependencies there if they changed, and builds it: the source tree stays clean.
 // Run again, it replaces what changed and keeps the rest.
 import { execFileSync } from "node:child_process";
-import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import {
+  cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync,
+} from "node:fs";
 import { basename, join } from "node:path";
 
 const [from, to, name] = process.argv.slice(2);
@@ -35,4 +38,23 @@ if (!existsSync(installed) || readFileSync(installed, "utf8") !== lock) {
   execFileSync("npm", ["ci", ...quiet], { cwd: folder, stdio: "inherit" });
   writeFileSync(installed, lock);
 }
-execFileSync("npm", ["run", "--silent", "build"], { cwd: folder, stdio: "inherit" });
+
+// Built only if what it is built from is not what it was built from.
+const hash = createHash("sha256");
+const add = (path) => {
+  for (const entry of readdirSync(path, { withFileTypes: true }).sort((a, b) => (a.name < b.name ? -1 : 1))) {
+    if (made(entry.name) || entry.name.startsWith(".")) continue;
+    const at = join(path, entry.name);
+    if (entry.isDirectory()) add(at);
+    else hash.update(`${at}\0`).update(readFileSync(at));
+  }
+};
+for (const path of [folder, join(to, "shaders")]) add(path);
+const state = hash.digest("hex");
+const builtFrom = join(folder, ".built-from");
+const built = existsSync(join(folder, "dist")) && existsSync(builtFrom);
+if (!built || readFileSync(builtFrom, "utf8") !== state) {
+  rmSync(builtFrom, { force: true });
+  execFileSync("npm", ["run", "--silent", "build"], { cwd: folder, stdio: "inherit" });
+  writeFileSync(builtFrom, state);
+}
