@@ -1,6 +1,9 @@
 // The attributes of OpenEXR headers (OpenEXR File Layout, "Header"): name, type, size, value.
-// Nothing is read out of them here: it is only seen to that their sizes can be true.
+// Nothing is read out of them here: it is only seen to that their sizes can be true. The library
+// reads a value as its type has it, whatever size the file says: where the two differ it takes the
+// middle of something for the next attribute, with any size.
 #include <cstring>
+#include <utility>
 
 #include "lambent/image/formats.h"
 
@@ -9,6 +12,35 @@ namespace {
 
 constexpr size_t kLongestName = 255;
 constexpr std::uint32_t kManyParts = 0x1000;
+
+/// Bytes of the types that always take as many.
+constexpr std::pair<std::string_view, size_t> kFixedSizes[] = {{"box2f", 16},
+                                                               {"box2i", 16},
+                                                               {"chromaticities", 32},
+                                                               {"compression", 1},
+                                                               {"deepImageState", 1},
+                                                               {"double", 8},
+                                                               {"envmap", 1},
+                                                               {"float", 4},
+                                                               {"int", 4},
+                                                               {"keycode", 28},
+                                                               {"lineOrder", 1},
+                                                               {"m33d", 72},
+                                                               {"m33f", 36},
+                                                               {"m44d", 128},
+                                                               {"m44f", 64},
+                                                               {"rational", 8},
+                                                               {"tiledesc", 9},
+                                                               {"timecode", 8},
+                                                               {"v2d", 16},
+                                                               {"v2f", 8},
+                                                               {"v2i", 8},
+                                                               {"v3d", 24},
+                                                               {"v3f", 12},
+                                                               {"v3i", 12}};
+
+/// Bytes of a channel behind its name: type, linearity, samplings.
+constexpr size_t kChannelBytes = 16;
 
 class Walker {
  public:
@@ -68,8 +100,29 @@ class Walker {
     }
   }
 
-  /// Whether the sizes within a value lie inside of it.
+  /// Whether a list of channels ends where its size says.
+  bool channelsFit(size_t size) const {
+    const Bytes list = bytes_.subspan(at_, size);
+    for (size_t used = 0; used < size;) {
+      const void* const end = std::memchr(list.data() + used, 0, size - used);
+      if (!end) return false;
+      const size_t length =
+          static_cast<size_t>(static_cast<const std::byte*>(end) - (list.data() + used));
+      if (length == 0) return used + 1 == size;
+      used += length + 1;
+      if (size - used < kChannelBytes) return false;
+      used += kChannelBytes;
+    }
+    return false;
+  }
+
+  /// Whether a value takes as much as its size says, and the sizes within it lie inside of it.
   bool innerSizesFit(std::string_view type, size_t size) const {
+    for (const auto& [fixed, bytes] : kFixedSizes) {
+      if (type == fixed) return size == bytes;
+    }
+    if (type == "chlist") return channelsFit(size);
+    if (type == "floatvector") return size % 4 == 0;
     if (type == "preview") {
       if (size < 8) return false;
       const std::uint64_t width = littleEndian(at_), height = littleEndian(at_ + 4);

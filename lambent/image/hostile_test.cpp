@@ -100,6 +100,20 @@ TEST_F(HostileFiles, HugeSizesAreRefusedBeforeMemoryIsTaken) {
   expectAnswer(result);
 }
 
+TEST_F(HostileFiles, ExrAttributesTakeWhatTheirSizeSays) {
+  const Bytes whole = fileOf(noise(8, 8), "a.exr");
+  for (const std::string_view type : {"chlist", "box2i", "float"}) {
+    Bytes exr = whole;
+    const std::string_view text(reinterpret_cast<const char*>(exr.data()), exr.size());
+    const size_t size = text.find(type) + type.size() + 1;
+    exr[size] = static_cast<std::byte>(std::to_integer<int>(exr[size]) + 1);
+    const Result<Image> result = decode(exr, "the name");
+    ASSERT_FALSE(result) << type;
+    EXPECT_NE(result.error().message.find("does not fit its size"), std::string::npos)
+        << result.error().message;
+  }
+}
+
 TEST_F(HostileFiles, Jpeg) {
   // The smallest grey baseline JPEG: one 8×8 block, written out by hand.
   std::vector<unsigned char> jpeg{0xff, 0xd8, 0xff, 0xdb, 0, 67, 0};
