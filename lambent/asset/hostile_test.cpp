@@ -9,6 +9,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/asset/check.h"
 #include "lambent/asset/format.h"
+#include "lambent/asset/read.h"
 #include "lambent/asset/samples.h"
 #include "lambent/asset/test_support.h"
 
@@ -61,6 +62,17 @@ class AssetHostile : public ::testing::Test {
   Folder folder_;
   std::vector<std::byte> good_;
 };
+
+TEST_F(AssetHostile, ALimitOfMemory) {
+  ReadOptions options;
+  options.memoryLimit = 100;
+  const Result<Asset> asset = read(folder_ / "good.glb", options);
+  ASSERT_FALSE(asset);
+  EXPECT_NE(asset.error().message.find("over the limit of 800 bytes"), std::string::npos)
+      << asset.error().message;
+  options.memoryLimit = 1 << 20;
+  EXPECT_TRUE(read(folder_ / "good.glb", options));
+}
 
 TEST_F(AssetHostile, TheFileThatTheOthersAreMadeFromIsGood) {
   const Result<Asset> asset = readChanged([](json&) {});

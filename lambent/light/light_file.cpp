@@ -26,8 +26,8 @@ constexpr const char* kExample =
 /// A light of 10 bands is some 5 KB; what is much larger is some other file.
 constexpr std::uintmax_t kMostBytes = 1 << 20;
 
-Error wrong(const std::filesystem::path& path, const std::string& what) {
-  return badInput(fmt::format("{}: {}", path.string(), what));
+Error wrong(const std::string& name, const std::string& what) {
+  return badInput(fmt::format("{}: {}", name, what));
 }
 
 /// "-0" would come back as the integer 0.
@@ -43,65 +43,69 @@ std::string shown(const nlohmann::json& value) {
 
 }  // namespace
 
-Result<sh::RgbCoefficients> readLight(const std::filesystem::path& path) {
-  std::error_code sizeError;
-  const std::uintmax_t size = std::filesystem::file_size(path, sizeError);
-  if (!sizeError && size > kMostBytes)
-    return wrong(path,
-                 fmt::format("{} bytes are too many for a light; make one with 'lambent light "
-                             "SOURCE -o LIGHT.json'",
-                             size));
-  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
-  if (!bytes) return bytes.error();
-  const char* text = reinterpret_cast<const char*>(bytes->data());
-  const Result<nlohmann::json> parsed = file::parseJson({text, bytes->size()});
+Result<sh::RgbCoefficients> parseLight(std::string_view text, const std::string& name) {
+  const Result<nlohmann::json> parsed = file::parseJson(text);
   if (!parsed)
-    return wrong(path, fmt::format("not JSON ({}). A light looks like {}", parsed.error().message,
+    return wrong(name, fmt::format("not JSON ({}). A light looks like {}", parsed.error().message,
                                    kExample));
   const nlohmann::json& json = *parsed;
   const auto isLight = [&] {
     return json.is_object() && json.contains("lambent") && json["lambent"] == "light";
   };
   if (!isLight())
-    return wrong(path,
+    return wrong(name,
                  fmt::format("JSON, but not a light: \"lambent\": \"light\" is missing. A light "
                              "looks like {}",
                              kExample));
   if (!json.contains("bands") || !json["bands"].is_number_integer())
-    return wrong(path, fmt::format("\"bands\" must be a whole number from 1 to {}", sh::kMaxBands));
+    return wrong(name, fmt::format("\"bands\" must be a whole number from 1 to {}", sh::kMaxBands));
   const double bandsGiven = json["bands"].get<double>();
   if (!(bandsGiven >= 1 && bandsGiven <= sh::kMaxBands))
-    return wrong(path, fmt::format("\"bands\" is {}; it must be from 1 to {}", shown(json["bands"]),
+    return wrong(name, fmt::format("\"bands\" is {}; it must be from 1 to {}", shown(json["bands"]),
                                    sh::kMaxBands));
   const int bands = int(bandsGiven);
   const std::size_t count = std::size_t(sh::coefficientCount(bands));
   if (!json.contains("coefficients") || !json["coefficients"].is_array())
-    return wrong(path, "\"coefficients\" must be a list of [r, g, b] rows");
+    return wrong(name, "\"coefficients\" must be a list of [r, g, b] rows");
   const nlohmann::json& rows = json["coefficients"];
   if (rows.size() != count)
-    return wrong(path, fmt::format("\"coefficients\" has {} rows; {} bands need {} (bands squared)",
+    return wrong(name, fmt::format("\"coefficients\" has {} rows; {} bands need {} (bands squared)",
                                    rows.size(), bands, count));
   sh::RgbCoefficients light(bands);
   for (std::size_t i = 0; i < count; ++i) {
     if (!rows[i].is_array() || rows[i].size() != 3)
-      return wrong(path, fmt::format("\"coefficients\" row {} is {}; every row is [r, g, b]", i,
+      return wrong(name, fmt::format("\"coefficients\" row {} is {}; every row is [r, g, b]", i,
                                      shown(rows[i])));
     for (int c = 0; c < 3; ++c) {
       const nlohmann::json& value = rows[i][c];
       if (!value.is_number())
-        return wrong(path, fmt::format("\"coefficients\" row {}, column {} is {}, not a number", i,
+        return wrong(name, fmt::format("\"coefficients\" row {}, column {} is {}, not a number", i,
                                        c, shown(value)));
       // Nine digits of the largest float stand for a number a little above it.
       constexpr double kLargest = std::numeric_limits<float>::max();
       const double number = value.get<double>();
       if (!(std::abs(number) <= kLargest * (1 + 1e-8)))
-        return wrong(path, fmt::format("\"coefficients\" row {}, column {} is {}: beyond the range "
+        return wrong(name, fmt::format("\"coefficients\" row {}, column {} is {}: beyond the range "
                                        "of a 32-bit float",
                                        i, c, shown(value)));
       light.channel(c)[i] = float(std::clamp(number, -kLargest, kLargest));
     }
   }
   return light;
+}
+
+Result<sh::RgbCoefficients> readLight(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code sizeError;
+  const std::uintmax_t size = std::filesystem::file_size(path, sizeError);
+  if (!sizeError && size > kMostBytes)
+    return wrong(name,
+                 fmt::format("{} bytes are too many for a light; make one with 'lambent light "
+                             "SOURCE -o LIGHT.json'",
+                             size));
+  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
+  if (!bytes) return bytes.error();
+  return parseLight({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, name);
 }
 
 Status writeLight(const sh::RgbCoefficients& light, const std::filesystem::path& path) {
