@@ -1,0 +1,13 @@
+// JPEG as a light and as a texture.
+#include "tests/fuzz/picture_use.h"
+
+namespace lambent::fuzz {
+
+void jpeg(Bytes bytes) {
+  if (image::formatOf(bytes) != image::Format::Jpeg) return;
+  std::optional<image::Image> picture = pictureIn(bytes, image::Format::Jpeg);
+  useAsTexture(bytes, picture.has_value());
+  if (picture) useAsLight(std::move(*picture));
+}
+
+}  // namespace lambent::fuzz
