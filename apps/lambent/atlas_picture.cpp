@@ -7,7 +7,7 @@ namespace lambent::tool {
 
 namespace {
 
-constexpr int kMostTexels = 1024;  ///< a side of each half
+constexpr int kLargestHalf = 1024;  ///< a side of each half
 constexpr std::uint32_t kOutside = atlas::kNoChart;
 
 Rgb chartColour(std::uint32_t chart) {
@@ -22,7 +22,7 @@ Status writeAtlasPicture(const atlas::Atlas& atlas, const asset::Asset& asset, s
                          const std::filesystem::path& path) {
   const auto& biScale = std::get<transfer::BiScale<transfer::Numbers>>(asset.transfer.meshes[mesh]);
   const transfer::IdMap& map = *biScale.patch.idMap();
-  const int side = std::min(kMostTexels, map.width);
+  const int side = std::min(kLargestHalf, map.width);
   const std::vector<std::uint32_t> charts = atlas::chartOfTexel(atlas, map.width);
   image::Image picture(2 * side, side);
   for (int y = 0; y < side; ++y)

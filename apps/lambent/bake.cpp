@@ -32,7 +32,7 @@ struct BakeArguments {
   std::vector<std::string> texels;  ///< MESH=WxH, or WxH for every mesh with UVs
 };
 
-constexpr std::string_view kExamples = R"(Examples:
+constexpr std::string_view kBakeExamples = R"(Examples:
   lambent bake bunny.obj -o bunny.glb
       Soft shadows and two bounces at every vertex, for light of 5 bands.
   lambent bake bunny.obj -o draft.glb --directions 1024 --transfer shadowed
@@ -156,7 +156,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
   CLI::App* app = root.add_subcommand(
       "bake", "Simulate once how light moves over a scene, and write an asset to relight");
   app->group("Verbs");
-  app->footer(std::string(kExamples));
+  app->footer(std::string(kBakeExamples));
   macro::BakeOptions& options = arguments->transfer.options;
   arguments->scene.addTo(*app);
   app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")

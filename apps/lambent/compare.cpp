@@ -30,7 +30,7 @@ struct Limit {
   double value;
 };
 
-struct Arguments {
+struct CompareRequest {
   std::filesystem::path truth, judged, difference, strip;
   DevelopmentArguments development;
   float gain = 10.0f;
@@ -38,7 +38,7 @@ struct Arguments {
   ReadingArguments reading;
 };
 
-constexpr std::string_view kExamples = R"(A is the truth, B what is judged.
+constexpr std::string_view kCompareExamples = R"(A is the truth, B what is judged.
   bias            sum of B - A over the sum of A: too dark below zero, too bright above
   rmse            root mean square difference, in radiance
   relative_rmse   the same over the root mean square of A
@@ -145,7 +145,7 @@ std::string textOf(const Outcome& outcome, std::string_view unit) {
   return text;
 }
 
-Result<Outcome> compareReceivers(const Arguments& arguments) {
+Result<Outcome> compareReceivers(const CompareRequest& arguments) {
   if (!arguments.difference.empty() || !arguments.strip.empty())
     return badUsage("--diff and --strip need two pictures, not receivers");
   const auto a = readReceivers(arguments.truth, arguments.reading.memoryLimit);
@@ -175,7 +175,7 @@ Result<Outcome> compareReceivers(const Arguments& arguments) {
 
 /// The relative RMSE to be expected of the noise alone, if one of the files has a layer of
 /// variance.
-std::optional<double> noiseOf(const Arguments& arguments, const image::Image& a,
+std::optional<double> noiseOf(const CompareRequest& arguments, const image::Image& a,
                               const image::Image& b) {
   double variance = 0.0, power = 0.0;
   bool known = false;
@@ -206,14 +206,14 @@ std::pair<std::vector<Rgb>, std::vector<Rgb>> covered(const image::Image& a,
   return both;
 }
 
-Status writeStrip(const Arguments& arguments, const image::Image& a, const image::Image& b,
+Status writeStrip(const CompareRequest& arguments, const image::Image& a, const image::Image& b,
                   const image::Image& difference) {
   const Rgb backdrop = Rgb::Constant(0.03f), gap = Rgb::Constant(1.0f);
   const std::array panels = {image::over(a, backdrop), image::over(b, backdrop), difference};
   return written(image::write(image::strip(panels, 4, gap), arguments.strip));
 }
 
-Result<Outcome> comparePictures(const Arguments& arguments, Console& console) {
+Result<Outcome> comparePictures(const CompareRequest& arguments, Console& console) {
   NamedFiles files;
   files.writes("--diff", arguments.difference, {".png"});
   files.writes("--strip", arguments.strip, {".png"});
@@ -268,7 +268,7 @@ bool holdsReceivers(const std::filesystem::path& path) {
   return extension == ".csv" || extension == ".ply";
 }
 
-Status runCompare(const Arguments& arguments, Console& console) {
+Status runCompare(const CompareRequest& arguments, Console& console) {
   const bool receivers = holdsReceivers(arguments.truth);
   if (receivers != holdsReceivers(arguments.judged))
     return badUsage("compare two pictures, or two outputs of 'lambent shade'");
@@ -304,10 +304,10 @@ Status runCompare(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Verb addCompare(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompareRequest>();
   CLI::App* app = root.add_subcommand("compare", "Say how far one picture is from another");
   app->group("Verbs");
-  app->footer(std::string(kExamples));
+  app->footer(std::string(kCompareExamples));
   app->add_option("A", arguments->truth,
                   "The truth: .exr, .hdr or .png; or .csv or .ply from 'lambent shade'")
       ->required();

@@ -126,7 +126,7 @@ Description describe(const scene::Scene& scene) {
 
 namespace {
 
-Description describe(const asset::BiScaleSummary& biScale, std::uint64_t receivers) {
+Description describeBiScale(const asset::BiScaleSummary& biScale, std::uint64_t receivers) {
   const bool any = biScale.shadowed || biScale.interreflected;
   const std::string matrices = biScale.interreflected && biScale.shadowed
                                    ? "shadowed and interreflected matrices"
@@ -153,7 +153,7 @@ Description describe(const asset::BiScaleSummary& biScale, std::uint64_t receive
   return d;
 }
 
-Description describe(const asset::MeshSummary& mesh) {
+Description describeMesh(const asset::MeshSummary& mesh) {
   const std::string called = mesh.name.empty() ? "(no name)" : mesh.name;
   Description d;
   d.json = {{"name", mesh.name}, {"layout", mesh.layout}};
@@ -163,7 +163,7 @@ Description describe(const asset::MeshSummary& mesh) {
   }
   d.json["receivers"] = mesh.receivers;
   if (mesh.biScale) {
-    const Description biScale = describe(*mesh.biScale, mesh.receivers);
+    const Description biScale = describeBiScale(*mesh.biScale, mesh.receivers);
     d.text = fmt::format("  {}: {}", called, biScale.text);
     d.json["bi_scale"] = biScale.json;
     return d;
@@ -222,7 +222,7 @@ Description describe(const asset::Asset& asset) {
   }
   Json meshes = Json::array();
   for (const asset::MeshSummary& mesh : transfer.meshes) {
-    const Description one = describe(mesh);
+    const Description one = describeMesh(mesh);
     d.text += one.text;
     meshes.push_back(one.json);
   }

@@ -24,7 +24,7 @@ namespace lambent::tool {
 
 namespace {
 
-constexpr std::string_view kExamples = R"(Examples:
+constexpr std::string_view kInfoExamples = R"(Examples:
   lambent info model.glb          meshes, materials, cameras, and what is odd in them
   lambent info baked.glb          also: bands, directions, bounces, encoding
   lambent info weave.rtt          a patch: positions, views, bands, size
@@ -124,15 +124,15 @@ Status runInfo(const std::filesystem::path& path, const ReadingArguments& readin
 }  // namespace
 
 Verb addInfo(CLI::App& root, ConsoleOptions& common) {
-  struct Arguments {
+  struct InfoRequest {
     std::filesystem::path path;
     ReadingArguments reading;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InfoRequest>();
   CLI::App* app =
       root.add_subcommand("info", "Say what is in a scene, an asset, an image or a light");
   app->group("Verbs");
-  app->footer(std::string(kExamples));
+  app->footer(std::string(kInfoExamples));
   app->add_option("FILE", arguments->path, "The file to look into")->required();
   arguments->reading.addTo(*app);
   addCommonOptions(*app, common);

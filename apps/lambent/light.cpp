@@ -18,14 +18,14 @@ namespace lambent::tool {
 
 namespace {
 
-struct Arguments {
+struct LightRequest {
   LightArguments light;
   std::filesystem::path output;
   int bands = 5;
   ReadingArguments reading;
 };
 
-constexpr std::string_view kExamples = R"(
+constexpr std::string_view kLightExamples = R"(
 Examples:
   lambent light sky.exr -o sky.json
       An environment image becomes 25 coefficients per channel.
@@ -34,7 +34,7 @@ Examples:
   lambent light sky.exr -o turned.json --rotate-y 90 --bands 3
 )";
 
-Status runLight(const Arguments& arguments, Console& console) {
+Status runLight(const LightRequest& arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".json"});
   files.readsLight("SOURCE", arguments.light.source);
@@ -54,11 +54,11 @@ Status runLight(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Verb addLight(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<LightRequest>();
   CLI::App* app = root.add_subcommand(
       "light", "Project a light to spherical harmonics, and write them as JSON");
   app->group("Verbs");
-  app->footer(sources::sourceHelp() + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kLightExamples));
   arguments->light.addTo(*app, true);
   app->add_option("-o,--output", arguments->output, "The coefficients to write, a .json")
       ->option_text("LIGHT.json")

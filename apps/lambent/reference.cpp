@@ -26,7 +26,7 @@ namespace lambent::tool {
 
 namespace {
 
-struct Arguments {
+struct ReferenceRequest {
   SceneArguments scene;
   LightArguments light;
   StateArguments state;
@@ -42,7 +42,7 @@ struct Arguments {
   bool given(const char* option) const { return app->count(option) > 0; }
 };
 
-constexpr std::string_view kExamples = R"(
+constexpr std::string_view kReferenceExamples = R"(
 Examples:
   lambent reference bunny.obj --light sky.exr -o truth.exr --spp 256
       What a bake is measured against: radiance, and the variance of every pixel in a second layer.
@@ -73,7 +73,7 @@ bool asksForReceivers(const std::filesystem::path& output) {
 }
 
 /// Exit radiance at every vertex that a bake would record, in the sequence of 'lambent shade'.
-Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
+Status traceReceivers(const ReferenceRequest& arguments, const scene::Scene& scene,
                       const trace::RayScene& rays, const light::Environment& environment,
                       Console& console) {
   // The bake's own receivers: their rays start where the bake's do.
@@ -120,7 +120,7 @@ Status traceReceivers(const Arguments& arguments, const scene::Scene& scene,
 }
 
 /// What the state says where no flag does: the material's lobe, and which transport there is.
-void take(const view::ViewState& state, Arguments& arguments) {
+void take(const view::ViewState& state, ReferenceRequest& arguments) {
   if (!arguments.given("--lobe")) arguments.scene.lobeExponent = state.lobe;
   if (!arguments.given("--transfer") && state.transfer) arguments.transfer = *state.transfer;
   arguments.view.background = arguments.view.background || state.background;
@@ -128,7 +128,7 @@ void take(const view::ViewState& state, Arguments& arguments) {
 
 /// Camera and light in the scene's own frame. With --bands, the light's radiance is that of so many
 /// bands, windowed.
-Result<Shot> shotOf(const Arguments& arguments, const std::optional<view::ViewState>& state,
+Result<Shot> shotOf(const ReferenceRequest& arguments, const std::optional<view::ViewState>& state,
                     const scene::Scene& scene, Console& console) {
   Result<Shot> shot = failed("");
   if (state) {
@@ -157,7 +157,7 @@ Result<Shot> shotOf(const Arguments& arguments, const std::optional<view::ViewSt
   return shot;
 }
 
-Status runReference(Arguments arguments, Console& console) {
+Status runReference(ReferenceRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".exr", ".png", ".csv", ".ply"});
   files.reads("SCENE", arguments.scene.path);
@@ -226,12 +226,12 @@ Status runReference(Arguments arguments, Console& console) {
 }  // namespace
 
 Verb addReference(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReferenceRequest>();
   CLI::App* app =
       root.add_subcommand("reference", "Path-trace the scene: the truth to compare with");
   arguments->app = app;
   app->group("Verbs");
-  app->footer(sources::sourceHelp() + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kReferenceExamples));
   arguments->scene.addTo(*app);
   arguments->state.addTo(*app, arguments->light.addTo(*app, false));
   app->add_option(

@@ -32,7 +32,7 @@ Choices<Backend> backends() {
   return {{"gl", Backend::Gl}, {"cpu", Backend::Cpu}};
 }
 
-struct Arguments {
+struct RenderRequest {
   std::filesystem::path asset, output;
   LightArguments light;
   StateArguments state;
@@ -47,7 +47,7 @@ struct Arguments {
   bool given(const char* option) const { return app->count(option) > 0; }
 };
 
-constexpr std::string_view kExamples = R"(
+constexpr std::string_view kRenderExamples = R"(
 Examples:
   lambent render bunny.glb --light sky.exr -o bunny.png
   lambent render bunny.glb --light sky.exr -o bunny.png --rotate-y 120 --background --size 1920x1080
@@ -61,7 +61,7 @@ Examples:
 )";
 
 /// What the flags say about a picture.
-shade::PictureOptions pictureOptions(const Arguments& arguments) {
+shade::PictureOptions pictureOptions(const RenderRequest& arguments) {
   shade::PictureOptions options;
   options.width = arguments.view.size.width;
   options.height = arguments.view.size.height;
@@ -72,7 +72,7 @@ shade::PictureOptions pictureOptions(const Arguments& arguments) {
 }
 
 /// What a state says about it, where no flag says otherwise.
-shade::PictureOptions pictureOptions(const Arguments& arguments, const view::ViewState& state) {
+shade::PictureOptions pictureOptions(const RenderRequest& arguments, const view::ViewState& state) {
   const shade::PictureOptions told = pictureOptions(arguments);
   shade::PictureOptions options = view::pictureOptions(state, told.width, told.height);
   if (arguments.given("--samples")) options.samples = told.samples;
@@ -80,7 +80,7 @@ shade::PictureOptions pictureOptions(const Arguments& arguments, const view::Vie
   return options;
 }
 
-Result<Shot> shotOf(const Arguments& arguments, const asset::Asset& asset, Console& console) {
+Result<Shot> shotOf(const RenderRequest& arguments, const asset::Asset& asset, Console& console) {
   const auto environment = arguments.light.environment(arguments.reading, console);
   if (!environment) return environment.error();
   const auto light = arguments.light.coefficients(*environment, asset.transfer.bands, console);
@@ -90,7 +90,7 @@ Result<Shot> shotOf(const Arguments& arguments, const asset::Asset& asset, Conso
   return Shot{*environment, *light, *camera};
 }
 
-Status runRender(Arguments arguments, Console& console) {
+Status runRender(RenderRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".png", ".exr"});
   files.readsAsset("ASSET", arguments.asset);
@@ -159,11 +159,11 @@ Status runRender(Arguments arguments, Console& console) {
 }  // namespace
 
 Verb addRender(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RenderRequest>();
   CLI::App* app = root.add_subcommand("render", "Relight an asset and draw a picture");
   arguments->app = app;
   app->group("Verbs");
-  app->footer(sources::sourceHelp() + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kRenderExamples));
   app->add_option("ASSET", arguments->asset,
                   "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
       ->required();

@@ -37,7 +37,7 @@ Choices<meso::RttMethod> methods() {
 
 constexpr int kMostPositions = 1024, kMostLights = 256, kMostMeasuredLights = 64;  // a side
 
-struct Arguments {
+struct RttRequest {
   std::string patch;
   std::filesystem::path output, previewPath, patchPath;
   std::string size, positions = "64x64", lights = "8x16";
@@ -50,7 +50,7 @@ struct Arguments {
   double white = 1.0;
 };
 
-constexpr std::string_view kExamples = R"(
+constexpr std::string_view kRttExamples = R"(
 PATCH is weave, holes, bin, flower, stucco or plaster; a height field (.png, .exr: black is low);
 a mesh (.glb, .gltf, .obj, .ply) that lies on the ground; or a measured BTF: a folder of rectified
 pictures (or its .csv) with a table
@@ -92,7 +92,7 @@ bool isGenerator(const std::string& name) {
 }
 
 /// The patch that is named, with what the options change about it.
-Result<meso::Patch> makePatch(const Arguments& arguments, const std::optional<Vec2>& size,
+Result<meso::Patch> makePatch(const RttRequest& arguments, const std::optional<Vec2>& size,
                               NamedFiles& files, Console& console) {
   if (isGenerator(arguments.patch)) {
     if (arguments.depth || arguments.albedo || !arguments.file.color.empty())
@@ -135,7 +135,7 @@ Status checkAgainstPictures(const std::filesystem::path& patch, NamedFiles& file
   return files.check();
 }
 
-Status runRtt(Arguments arguments, Console& console) {
+Status runRtt(RttRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".rtt"});
   files.writes("--preview", arguments.previewPath, {".png", ".exr"});
@@ -252,11 +252,11 @@ std::function<std::string(const std::string&)> parses(Parse parse) {
 }  // namespace
 
 Verb addRtt(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RttRequest>();
   CLI::App* app = root.add_subcommand(
       "rtt", "Build the radiance transfer texture of a patch of meso-structure");
   app->group("Verbs");
-  app->footer(std::string(kExamples));
+  app->footer(std::string(kRttExamples));
   meso::RttOptions& options = arguments->rtt;
   app->add_option("PATCH", arguments->patch, "A pattern's name, a file, or a folder (see below)")
       ->required();

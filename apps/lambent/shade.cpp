@@ -22,7 +22,7 @@ namespace lambent::tool {
 
 namespace {
 
-struct Arguments {
+struct ShadeRequest {
   std::filesystem::path asset, output;
   LightArguments light;
   std::optional<Vec3> eye;
@@ -30,7 +30,7 @@ struct Arguments {
   ReadingArguments reading;
 };
 
-constexpr std::string_view kExamples = R"(
+constexpr std::string_view kShadeExamples = R"(
 Examples:
   lambent shade bunny.glb --light sky.exr -o bunny.csv
       Exit radiance of every vertex, one row each, for a spreadsheet or a script.
@@ -40,7 +40,7 @@ Examples:
       A surface with meso-structure as if its shape hid no light.
 )";
 
-Status runShade(const Arguments& arguments, Console& console) {
+Status runShade(const ShadeRequest& arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".ply", ".csv"});
   files.readsAsset("ASSET", arguments.asset);
@@ -89,11 +89,11 @@ Status runShade(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Verb addShade(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ShadeRequest>();
   CLI::App* app = root.add_subcommand(
       "shade", "Relight an asset and write the exit radiance of every receiver as numbers");
   app->group("Verbs");
-  app->footer(sources::sourceHelp() + std::string(kExamples));
+  app->footer(sources::sourceHelp() + std::string(kShadeExamples));
   app->add_option("ASSET", arguments->asset,
                   "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
       ->required();

@@ -24,7 +24,7 @@ namespace lambent::tool {
 
 namespace {
 
-struct Arguments {
+struct SynthesizeRequest {
   SceneArguments scene;
   TransferArguments transfer;
   std::filesystem::path rtt, output, atlasPicture;
@@ -34,7 +34,7 @@ struct Arguments {
   std::optional<Vec3> direction;
 };
 
-constexpr std::string_view kExamples = R"(Examples:
+constexpr std::string_view kSynthesizeExamples = R"(Examples:
   lambent rtt weave -o weave.rtt
   lambent synthesize bunny.obj --rtt weave.rtt -o bunny.glb
       The weave over the whole bunny, with shadows and two bounces at the macro-scale.
@@ -48,7 +48,7 @@ constexpr std::string_view kExamples = R"(Examples:
       What the macro-scale brings: without it the bunny glows.
 )";
 
-Result<std::vector<std::uint32_t>> chosenMeshes(const Arguments& arguments,
+Result<std::vector<std::uint32_t>> chosenMeshes(const SynthesizeRequest& arguments,
                                                 const scene::Scene& scene) {
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
@@ -111,7 +111,7 @@ Json asJson(const bi_scale::SpreadReport& r) {
           {"matrix_error", r.matrixError}};
 }
 
-Status run(Arguments arguments, Console& console) {
+Status run(SynthesizeRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
   files.writes("--atlas-picture", arguments.atlasPicture, {".png"});
@@ -185,12 +185,12 @@ Status run(Arguments arguments, Console& console) {
 }  // namespace
 
 Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SynthesizeRequest>();
   bi_scale::SpreadOptions& options = arguments->options;
   CLI::App* app = root.add_subcommand(
       "synthesize", "Spread a patch of meso-structure over a surface, and write a bi-scale asset");
   app->group("Verbs");
-  app->footer(std::string(kExamples));
+  app->footer(std::string(kSynthesizeExamples));
   arguments->scene.addTo(*app);
   app->add_option("--rtt", arguments->rtt, "The patch: what 'lambent rtt' wrote")
       ->option_text("PATCH.rtt")

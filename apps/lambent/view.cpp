@@ -24,7 +24,7 @@ namespace lambent::tool {
 
 namespace {
 
-struct Arguments {
+struct ViewRequest {
   std::filesystem::path asset, state, script, screenshot;
   std::vector<std::string> environments;
   Size size{1280, 800};
@@ -36,7 +36,7 @@ struct Arguments {
   ReadingArguments reading;
 };
 
-constexpr std::string_view kExamples = R"(
+constexpr std::string_view kViewExamples = R"(
 Examples:
   lambent view bunny.glb sky.exr studio.exr
       E switches between the environments; ? shows what else keys and mouse do.
@@ -78,7 +78,7 @@ void addFilesOf(const viewer::Script& script, NamedFiles& files) {
   }
 }
 
-Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const Arguments& arguments,
+Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const ViewRequest& arguments,
                                                              NamedFiles& files, Console& console) {
   if (arguments.surroundings.empty()) return std::unique_ptr<viewer::Surroundings>();
   if (arguments.surroundings == "demo")
@@ -94,7 +94,7 @@ Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const Arguments& ar
       new viewer::CapturedLight(std::move(loaded->scene), arguments.lightSamples));
 }
 
-Status runView(const Arguments& arguments, Console& console) {
+Status runView(const ViewRequest& arguments, Console& console) {
   if (arguments.web)
     return serveViewer(arguments.asset, arguments.environments, arguments.reading,
                        {.port = arguments.port, .openBrowser = !arguments.noBrowser}, console);
@@ -146,11 +146,12 @@ Status runView(const Arguments& arguments, Console& console) {
 }  // namespace
 
 Verb addView(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ViewRequest>();
   CLI::App* app =
       root.add_subcommand("view", "Relight an asset in a window, while everything moves");
   app->group("Verbs");
-  app->footer(sources::sourceHelp() + std::string(kExamples) + std::string(viewer::kScriptHelp));
+  app->footer(sources::sourceHelp() + std::string(kViewExamples) +
+              std::string(viewer::kScriptHelp));
   app->add_option("ASSET", arguments->asset,
                   "A .glb that 'lambent bake' or 'lambent synthesize' wrote; others can be dropped "
                   "on the window");

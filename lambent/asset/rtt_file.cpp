@@ -4,6 +4,7 @@
 //   float scales (snorm8 alone: one for each coefficient)   the numbers to the end of the file
 #include "lambent/asset/rtt_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -35,9 +36,11 @@ struct Header {
 };
 
 template <class T>
-void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
+void append(std::vector<std::byte>& bytes, const T& values) {
   const auto raw = std::as_bytes(std::span(values));
-  bytes.insert(bytes.end(), raw.begin(), raw.end());
+  const std::size_t before = bytes.size();
+  bytes.resize(before + raw.size());
+  std::copy(raw.begin(), raw.end(), bytes.begin() + std::ptrdiff_t(before));
 }
 
 template <class T>
@@ -73,10 +76,8 @@ Status writeRtt(const EncodedRtt& rtt, const std::filesystem::path& path) {
   std::vector<std::byte> bytes;
   bytes.reserve(sizeof header + text.size() + rtt.values.scales.size() * 4 +
                 rtt.values.size() * transfer::bytesPerNumber(rtt.values.encoding));
-  const auto raw = std::as_bytes(std::span(&header, 1));
-  bytes.insert(bytes.end(), raw.begin(), raw.end());
-  const auto words = std::as_bytes(std::span(text));
-  bytes.insert(bytes.end(), words.begin(), words.end());
+  append(bytes, std::span(&header, 1));
+  append(bytes, text);
   append(bytes, rtt.values.scales);
   append(bytes, rtt.values.byte);
   append(bytes, rtt.values.half);

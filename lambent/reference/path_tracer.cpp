@@ -83,8 +83,7 @@ Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
   constexpr int kLargest = 1 << 15;
   if (width < 1 || height < 1 || width > kLargest || height > kLargest)
     return report::badUsage("a picture's width and height are from 1 to 32768 pixels");
-  const auto planned = plan(options.samples);
-  const int batches = planned.batches, pathsPerBatch = planned.pathsPerBatch;
+  const Plan planned = plan(options.samples);
   const Integrator integrator(scene, rays, environment, options);
   Picture out{image::Image(width, height), image::Image(width, height)};
   out.mean.alpha.resize(out.mean.pixels.size());
@@ -94,9 +93,9 @@ Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
         const auto x = float(pixel % std::size_t(width)), y = float(pixel / std::size_t(width));
         BatchMoments<3> radiance;
         double coverage = 0;
-        for (int batch = 0; batch < batches; ++batch) {
+        for (int batch = 0; batch < planned.batches; ++batch) {
           Eigen::Array3d sum = Eigen::Array3d::Zero();
-          for (int path = 0; path < pathsPerBatch; ++path) {
+          for (int path = 0; path < planned.pathsPerBatch; ++path) {
             Sampler sampler(options.seed, std::uint64_t(pixel), std::uint64_t(batch),
                             std::uint32_t(path));
             const Vec2 place = sampler.next();
@@ -106,11 +105,11 @@ Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
             sum += seen.radiance.cast<double>();
             coverage += double(seen.coverage);
           }
-          radiance.add(sum / pathsPerBatch);
+          radiance.add(sum / planned.pathsPerBatch);
         }
         out.mean.pixels[pixel] = radiance.mean().cast<float>();
         out.variance.pixels[pixel] = radiance.varianceOfMean().cast<float>();
-        out.mean.alpha[pixel] = float(coverage / (double(batches) * pathsPerBatch));
+        out.mean.alpha[pixel] = float(coverage / (double(planned.batches) * planned.pathsPerBatch));
       });
   if (!whole) return whole.error();
   if (options.background) out.mean.alpha.clear();
@@ -123,20 +122,19 @@ Result<std::vector<Estimate>> exitRadiance(const scene::Scene& scene, const trac
                                            const PathTraceOptions& options,
                                            const Progress& progress) {
   if (const Status status = check(options); !status) return status.error();
-  const auto planned = plan(options.samples);
-  const int batches = planned.batches, pathsPerBatch = planned.pathsPerBatch;
+  const Plan planned = plan(options.samples);
   const Integrator integrator(scene, rays, environment, options);
   std::vector<Estimate> out(probes.size());
   const Status whole = forAll(probes.size(), "points", options, progress, [&](std::size_t i) {
     const Probe& probe = probes[i];
     BatchMoments<3> radiance;
-    for (int batch = 0; batch < batches; ++batch) {
+    for (int batch = 0; batch < planned.batches; ++batch) {
       Eigen::Array3d sum = Eigen::Array3d::Zero();
-      for (int path = 0; path < pathsPerBatch; ++path) {
+      for (int path = 0; path < planned.pathsPerBatch; ++path) {
         Sampler sampler(options.seed, std::uint64_t(i), std::uint64_t(batch), std::uint32_t(path));
         sum += integrator.leaving(probe.point, probe.toViewer, sampler).cast<double>();
       }
-      radiance.add(sum / pathsPerBatch);
+      radiance.add(sum / planned.pathsPerBatch);
     }
     out[i] = {radiance.mean().cast<float>(), radiance.varianceOfMean().cast<float>()};
   });

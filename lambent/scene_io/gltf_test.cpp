@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 template <class T>
-std::span<const std::byte> bytesOf(const std::vector<T>& values) {
+std::span<const std::byte> asBytes(const std::vector<T>& values) {
   return std::as_bytes(std::span<const T>(values));
 }
 
@@ -37,14 +37,14 @@ struct Document {
   void attribute(const char* name, const std::vector<T>& values, Component component,
                  const char* type, std::size_t count, bool normalized = false) {
     primitive()["attributes"][name] =
-        gltf.addAccessor(bytesOf(values), component, type, count, normalized);
+        gltf.addAccessor(asBytes(values), component, type, count, normalized);
   }
   void positions(const std::vector<Vec3>& values) {
     attribute("POSITION", values, Component::Float, "VEC3", values.size());
   }
   void indices(const std::vector<std::uint16_t>& values) {
     primitive()["indices"] =
-        gltf.addAccessor(bytesOf(values), Component::UnsignedShort, "SCALAR", values.size());
+        gltf.addAccessor(asBytes(values), Component::UnsignedShort, "SCALAR", values.size());
   }
   std::filesystem::path write(const TemporaryFolder& folder) const {
     return folder.write("file.glb", *gltf.glb());
@@ -256,7 +256,7 @@ TEST(Gltf, QuantizedAttributes) {
   const std::vector<std::uint16_t> uvs = {0, 0, 65535, 0, 0, 13107};
   const auto strided = [&](const char* name, auto& values, Component c, const char* type,
                            std::size_t stride, bool normalized) {
-    const int view = d.gltf.addBufferView(bytesOf(values));
+    const int view = d.gltf.addBufferView(asBytes(values));
     d.j["bufferViews"][view]["byteStride"] = stride;
     d.j["accessors"].push_back({{"bufferView", view},
                                 {"componentType", int(c)},
@@ -292,8 +292,8 @@ TEST(Gltf, SparseAccessors) {
   const std::vector<Vec3> values = {{0, 7, 0}};
   d.j["accessors"][0]["sparse"] = {
       {"count", 1},
-      {"indices", {{"bufferView", d.gltf.addBufferView(bytesOf(places))}, {"componentType", 5121}}},
-      {"values", {{"bufferView", d.gltf.addBufferView(bytesOf(values))}}}};
+      {"indices", {{"bufferView", d.gltf.addBufferView(asBytes(places))}, {"componentType", 5121}}},
+      {"values", {{"bufferView", d.gltf.addBufferView(asBytes(values))}}}};
   const auto loaded = load(d.write(folder));
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->scene.meshes[0].positions[2], Vec3(0, 7, 0));
@@ -382,7 +382,7 @@ TEST(Gltf, OriginsAndAccessorsForExtensions) {
   GltfBuilder gltf(richScene());
   const std::vector<std::uint16_t> payload = {1, 2, 3, 4, 5};
   const int accessor =
-      gltf.addAccessor(bytesOf(payload), Component::UnsignedShort, "SCALAR", payload.size());
+      gltf.addAccessor(asBytes(payload), Component::UnsignedShort, "SCALAR", payload.size());
   gltf.useExtension("LAMBENT_test");
   gltf.useExtension("LAMBENT_test");
   gltf.json()["meshes"][1]["primitives"][0]["extensions"]["LAMBENT_test"] = {{"data", accessor}};

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 template <class T>
-std::span<const std::byte> bytesOf(const std::vector<T>& values) {
+std::span<const std::byte> asBytes(const std::vector<T>& values) {
   return std::as_bytes(std::span<const T>(values));
 }
 
@@ -113,7 +113,7 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     const bool carried = !texture.encoded.empty() &&
                          (texture.mimeType == "image/png" || texture.mimeType == "image/jpeg");
     if (!carried) png = image::encodePng(texture.width, texture.height, 4, texture.rgba);
-    Json image = {{"bufferView", addBufferView(carried ? bytesOf(texture.encoded) : png)},
+    Json image = {{"bufferView", addBufferView(carried ? asBytes(texture.encoded) : png)},
                   {"mimeType", carried ? texture.mimeType : "image/png"}};
     setName(image, texture.name);
     const int source = append(document, "images", std::move(image));
@@ -132,7 +132,7 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     const std::size_t count = mesh.positions.size();
     Json attributes;
     const int positions =
-        addAccessor(bytesOf(mesh.positions), Component::Float, "VEC3", count, false, kArrayBuffer);
+        addAccessor(asBytes(mesh.positions), Component::Float, "VEC3", count, false, kArrayBuffer);
     scene::Box box;
     for (const Vec3& p : mesh.positions) box.extend(p);
     Json& accessor = document["accessors"][positions];
@@ -144,9 +144,9 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
       if (bytes.empty()) return;
       attributes[name] = addAccessor(bytes, Component::Float, type, count, false, kArrayBuffer);
     };
-    attribute("NORMAL", bytesOf(mesh.normals), "VEC3");
-    attribute("TEXCOORD_0", bytesOf(mesh.uvs), "VEC2");
-    attribute("COLOR_0", bytesOf(mesh.colors), "VEC3");
+    attribute("NORMAL", asBytes(mesh.normals), "VEC3");
+    attribute("TEXCOORD_0", asBytes(mesh.uvs), "VEC2");
+    attribute("COLOR_0", asBytes(mesh.colors), "VEC3");
 
     int indices = 0;
     const std::size_t indexCount = 3 * mesh.triangles.size();
@@ -156,10 +156,10 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
       for (const scene::Triangle& t : mesh.triangles) {
         for (std::uint32_t v : t) small.push_back(std::uint16_t(v));
       }
-      indices = addAccessor(bytesOf(small), Component::UnsignedShort, "SCALAR", indexCount, false,
+      indices = addAccessor(asBytes(small), Component::UnsignedShort, "SCALAR", indexCount, false,
                             kElementArrayBuffer);
     } else {
-      indices = addAccessor(bytesOf(mesh.triangles), Component::UnsignedInt, "SCALAR", indexCount,
+      indices = addAccessor(asBytes(mesh.triangles), Component::UnsignedInt, "SCALAR", indexCount,
                             false, kElementArrayBuffer);
     }
     Json primitive = {{"attributes", std::move(attributes)}, {"indices", indices}, {"mode", 4}};

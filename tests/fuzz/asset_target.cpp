@@ -1,5 +1,6 @@
 // Assets: glTF with LAMBENT_radiance_transfer, as .glb or as .gltf.
 #include "lambent/asset/check.h"
+#include "lambent/asset/read.h"
 #include "lambent/asset/summary.h"
 #include "lambent/scene/camera.h"
 #include "lambent/shade/shade.h"

@@ -5,7 +5,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // One thread: what an input reaches must not depend on who was there first.
-  static const work::ThreadLimit one(1);
+  static const lambent::work::ThreadLimit one(1);
   lambent::fuzz::LAMBENT_FUZZ_TARGET(std::as_bytes(std::span(data, size)));
   return 0;
 }
