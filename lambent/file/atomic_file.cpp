@@ -252,6 +252,7 @@ Status AtomicFile::write(std::string_view text) {
 Status AtomicFile::commit() {
   assert(descriptor_ >= 0 && "committed twice");
   const bool straight = temporary_ == path_;
+  const fs::path folderPath = folderOf(path_);  // nothing may throw once the file is in its place
   // A full disk may show only here. Pipes and devices cannot sync: EINVAL is their answer.
   if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) {
     if (!straight) return cannot("write", path_, errno);
@@ -273,7 +274,7 @@ Status AtomicFile::commit() {
   freeSlot(std::exchange(slot_, -1));
   // The name itself reaches the disk with its folder. Not every file system offers this; the file
   // is whole either way.
-  const int folder = open(folderOf(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int folder = open(folderPath.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0) {
     fsync(folder);
     close(folder);
