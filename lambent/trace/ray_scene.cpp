@@ -10,8 +10,7 @@ namespace lambent::trace {
 
 namespace {
 
-Error embreeError(RTCDevice device, const std::string& doing) {
-  const RTCError code = rtcGetDeviceError(device);
+Error embreeError(RTCError code, const std::string& doing) {
   return report::failed("ray tracing: " + doing + " failed (Embree error " + std::to_string(code) +
                         (code == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory)" : ")"));
 }
@@ -51,7 +50,7 @@ Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
   impl->offset = 1e-5f * scene::bounds(scene).diagonal();
 
   impl->device = rtcNewDevice(nullptr);
-  if (!impl->device) return embreeError(nullptr, "starting");
+  if (!impl->device) return embreeError(rtcGetDeviceError(nullptr), "starting");
   impl->scene = rtcNewScene(impl->device);
   if (edges == Edges::Watertight) rtcSetSceneFlags(impl->scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -62,7 +61,7 @@ Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
                               3 * sizeof(std::uint32_t), triangleCount));
   if (!positions || !indices) {
     rtcReleaseGeometry(geometry);
-    return embreeError(impl->device, "allocating the triangles");
+    return embreeError(rtcGetDeviceError(impl->device), "allocating the triangles");
   }
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const scene::Mesh& mesh = scene.meshes[m];
@@ -79,8 +78,9 @@ Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
   rtcReleaseGeometry(geometry);
   rtcSetSceneBuildQuality(impl->scene, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitScene(impl->scene);
-  if (rtcGetDeviceError(impl->device) != RTC_ERROR_NONE)
-    return embreeError(impl->device, "building the acceleration structure");
+  // Asking takes the error back: once.
+  if (const RTCError code = rtcGetDeviceError(impl->device); code != RTC_ERROR_NONE)
+    return embreeError(code, "building the acceleration structure");
   return RayScene(std::move(impl));
 }
 
