@@ -30,7 +30,7 @@ Result<Pixels8> decode8(std::span<const std::byte> bytes, std::string_view name,
 /// The same with the budget of a file of its own.
 Result<Pixels8> decode8(std::span<const std::byte> bytes, std::string_view name = "image");
 
-/// `components`: 3 or 4 samples a pixel, top row first. Empty if there is not enough memory.
+/// `components`: 3 or 4 samples a pixel, top row first. Throws std::bad_alloc.
 std::vector<std::byte> encodePng(int width, int height, int components,
                                  std::span<const std::uint8_t> samples);
 

@@ -10,13 +10,63 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <new>
 
 #include "lambent/image/decode.h"
 #include "lambent/image/formats.h"
 #include "lambent/radiometry/srgb.h"
 
+namespace lambent::image {
+namespace {
+
+/// Memory of one picture that stb_image_write packs: it does not look whether it got what it asked
+/// for. So what it holds is noted here, and std::bad_alloc can pass through it.
+class StbMemory {
+ public:
+  StbMemory() { current = this; }
+  ~StbMemory() {
+    current = nullptr;
+    while (first_) release(first_ + 1);
+  }
+  StbMemory(const StbMemory&) = delete;
+  StbMemory& operator=(const StbMemory&) = delete;
+
+  void* resize(void* old, size_t size) {
+    Block* const before = old ? static_cast<Block*>(old) - 1 : nullptr;
+    auto* const block = static_cast<Block*>(std::realloc(before, sizeof(Block) + size));
+    if (!block) throw std::bad_alloc();  // the old one stays noted
+    if (!old) block->previous = nullptr, block->next = first_;
+    (block->previous ? block->previous->next : first_) = block;
+    if (block->next) block->next->previous = block;
+    return block + 1;
+  }
+  void release(void* memory) {
+    if (!memory) return;
+    Block* const block = static_cast<Block*>(memory) - 1;
+    (block->previous ? block->previous->next : first_) = block->next;
+    if (block->next) block->next->previous = block->previous;
+    std::free(block);
+  }
+
+  static thread_local StbMemory* current;  ///< by necessity: stb hands no context on
+
+ private:
+  struct alignas(std::max_align_t) Block {
+    Block *previous, *next;
+  };
+  Block* first_ = nullptr;
+};
+thread_local StbMemory* StbMemory::current = nullptr;
+
+}  // namespace
+}  // namespace lambent::image
+
+#define STBIW_MALLOC(size) lambent::image::StbMemory::current->resize(nullptr, size)
+#define STBIW_REALLOC(old, size) lambent::image::StbMemory::current->resize(old, size)
+#define STBIW_FREE(memory) lambent::image::StbMemory::current->release(memory)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -185,11 +235,7 @@ Result<std::vector<std::byte>> writePng(const Image& image, std::string_view nam
       samples[components * i + 3] = static_cast<std::uint8_t>(std::lround(255.0f * alpha));
     }
   }
-  std::vector<std::byte> out = encodePng(image.width, image.height, components, samples);
-  if (out.empty()) {
-    return report::failed(std::string(name) + ": not enough memory to write the picture as PNG");
-  }
-  return out;
+  return encodePng(image.width, image.height, components, samples);
 }
 
 }  // namespace formats
@@ -203,9 +249,10 @@ std::vector<std::byte> encodePng(int width, int height, int components,
     const auto* const from = static_cast<const std::byte*>(data);
     bytes.insert(bytes.end(), from, from + size);
   };
+  StbMemory memory;
   if (!stbi_write_png_to_func(append, &out, width, height, components, samples.data(),
                               width * components)) {
-    out.clear();
+    throw std::bad_alloc();
   }
   return out;
 }
