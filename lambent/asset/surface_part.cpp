@@ -21,7 +21,7 @@ namespace {
 /// What is kept beside shares bands, albedo and lobe with the primitive's own: its JSON has
 /// channels and numbers alone.
 json keptJson(const Response& response, scene_io::GltfBuilder& gltf) {
-  json object;
+  json object = json::object();
   if (const auto& diffuse = response.diffuse)
     object["vectors"] =
         toJson(diffuse->vectors.numbers, gltf, {{"channels", diffuse->vectors.channels}});
@@ -122,7 +122,7 @@ Wrong faultOfKept(Kind kind, const Response& kept, const Response& own, Kind fie
 }  // namespace
 
 json toJson(const Surface& surface, Kind kind, scene_io::GltfBuilder& gltf) {
-  json object;
+  json object = json::object();
   const Response& own = *surface.responses.find(kind);
   if (const auto& diffuse = own.diffuse)
     object["vectors"] = toJson(diffuse->vectors.numbers, gltf,

@@ -10,6 +10,7 @@
 #include "lambent/asset/rtt_part.h"
 #include "lambent/asset/surface_part.h"
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/json.h"
 #include "lambent/scene_io/gltf_write.h"
 #include "lambent/transfer/names.h"
 
@@ -22,7 +23,7 @@ using scene_io::GltfBuilder;
 using transfer::Numbers;
 
 json rootObject(const transfer::EncodedField& field) {
-  json root;
+  json root = json::object();
   root["version"] = std::to_string(kFormatMajor) + "." + std::to_string(kFormatMinor);
   root["generator"] = "Lambent";
   root["transfer"] = transfer::nameOf(field.kind);
@@ -60,15 +61,15 @@ Status write(const Asset& asset, const std::filesystem::path& path) {
   gltf.useExtension(kExtensionName);
   json root = rootObject(asset.transfer);
   for (const transfer::EncodedRtt& rtt : asset.transfer.rtts)
-    root["rtts"].push_back(toJson(rtt, gltf));
-  gltf.json()["extensions"][std::string(kExtensionName)] = std::move(root);
+    file::arrayAt(root, "rtts").push_back(toJson(rtt, gltf));
+  file::objectAt(gltf.json(), "extensions")[std::string(kExtensionName)] = std::move(root);
   for (std::size_t i = 0; i < asset.transfer.meshes.size(); ++i) {
     // Before the look-up: it appends to the document.
     std::optional<json> object =
         primitiveObject(asset.transfer.meshes[i], asset.transfer.kind, gltf);
     if (!object) continue;
-    gltf.json()["meshes"][i]["primitives"][0]["extensions"][std::string(kExtensionName)] =
-        std::move(*object);
+    json& primitive = gltf.json()["meshes"][i]["primitives"][0];
+    file::objectAt(primitive, "extensions")[std::string(kExtensionName)] = std::move(*object);
   }
   Result<std::vector<std::byte>> glb = gltf.glb();
   if (!glb) return Error{glb.error().kind, path.string() + ": " + glb.error().message};

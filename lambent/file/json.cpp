@@ -50,4 +50,16 @@ Result<nlohmann::json> parseJson(std::string_view text) {
   }
 }
 
+nlohmann::json& arrayAt(nlohmann::json& object, const char* key) {
+  nlohmann::json& value = object[key];
+  if (value.is_null()) value = nlohmann::json::array();
+  return value;
+}
+
+nlohmann::json& objectAt(nlohmann::json& object, const char* key) {
+  nlohmann::json& value = object[key];
+  if (value.is_null()) value = nlohmann::json::object();
+  return value;
+}
+
 }  // namespace lambent::file

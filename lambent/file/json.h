@@ -15,4 +15,10 @@ inline constexpr int kDeepestJson = 200;
 /// BadInput says what is wrong and at which place, without the file's name.
 Result<nlohmann::json> parseJson(std::string_view text);
 
+/// What stands in an object at `key`; if nothing does, an empty array or object that is put there.
+/// operator[] and push_back would make them of null, too, but where they get no memory they leave
+/// half a value, whose destructor crashes (nlohmann-json 3.11.2).
+nlohmann::json& arrayAt(nlohmann::json& object, const char* key);
+nlohmann::json& objectAt(nlohmann::json& object, const char* key);
+
 }  // namespace lambent::file

@@ -42,5 +42,15 @@ TEST(Json, DamageIsPlaced) {
   EXPECT_LT(parseJson("[\"" + std::string(100000, 'x')).error().message.size(), 400u);
 }
 
+TEST(Json, WhatStandsInAnObjectOrIsPutThere) {
+  nlohmann::json object = {{"held", {1, 2}}};
+  arrayAt(object, "held").push_back(3);
+  arrayAt(object, "list").push_back(4);
+  objectAt(object, "inner")["a"] = 5;
+  EXPECT_TRUE(objectAt(object, "empty").is_object());
+  EXPECT_EQ(object,
+            nlohmann::json::parse(R"({"held":[1,2,3],"list":[4],"inner":{"a":5},"empty":{}})"));
+}
+
 }  // namespace
 }  // namespace lambent::file

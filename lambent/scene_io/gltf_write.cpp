@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/json.h"
 #include "lambent/image/decode.h"
 #include "lambent/scene_io/gltf_component.h"
 #include "lambent/scene_io/gltf_material.h"
@@ -36,7 +37,7 @@ int wrapCode(scene::Wrap wrap) {
 
 /// Appends to an array member and returns the new element's index.
 int append(Json& document, const char* key, Json value) {
-  Json& array = document[key];
+  Json& array = file::arrayAt(document, key);
   array.push_back(std::move(value));
   return int(array.size() - 1);
 }
@@ -48,7 +49,7 @@ void setName(Json& object, const std::string& name) {
 }  // namespace
 
 struct GltfBuilder::Impl {
-  Json document;
+  Json document = Json::object();
   std::vector<std::byte> binary;
 
   void addMaterial(const scene::Material& material);
@@ -74,7 +75,8 @@ void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
     const Rgb factor = material.emission / strength;
     object["emissiveFactor"] = {factor.x(), factor.y(), factor.z()};
     if (strength > 1.0f) {
-      object["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+      file::objectAt(object, "extensions")["KHR_materials_emissive_strength"] = {
+          {"emissiveStrength", strength}};
       use("extensionsUsed", "KHR_materials_emissive_strength");
     }
   }
@@ -83,13 +85,13 @@ void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
 }
 
 void GltfBuilder::Impl::use(const char* key, std::string_view extension) {
-  Json& list = document[key];
+  Json& list = file::arrayAt(document, key);
   if (std::find(list.begin(), list.end(), extension) == list.end()) list.push_back(extension);
 }
 
 Json GltfBuilder::Impl::camera(const scene::Camera& camera, float diagonal) {
   const float zNear = std::max(1e-3f * diagonal, 1e-6f), zFar = 10.0f * std::max(diagonal, 1e-3f);
-  Json object;
+  Json object = Json::object();
   if (camera.orthographicHalfHeight) {
     const float half = *camera.orthographicHalfHeight;
     object = {{"type", "orthographic"},
@@ -130,7 +132,7 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     const scene::Mesh& mesh = scene.meshes[i];
     assert(!mesh.positions.empty() && !mesh.triangles.empty());
     const std::size_t count = mesh.positions.size();
-    Json attributes;
+    Json attributes = Json::object();
     const int positions =
         addAccessor(asBytes(mesh.positions), Component::Float, "VEC3", count, false, kArrayBuffer);
     scene::Box box;
@@ -171,7 +173,8 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     append(document, "meshes", std::move(meshJson));
     Json node = {{"mesh", i}};
     setName(node, mesh.name);
-    document["scenes"][0]["nodes"].push_back(append(document, "nodes", std::move(node)));
+    file::arrayAt(document["scenes"][0], "nodes")
+        .push_back(append(document, "nodes", std::move(node)));
   }
 
   const float diagonal = scene.cameras.empty() ? 0.0f : bounds(scene).diagonal();
@@ -183,7 +186,8 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     }
     if (!camera.worldFromCamera.isIdentity(0.0f)) node["matrix"] = std::move(matrix);
     setName(node, camera.name);
-    document["scenes"][0]["nodes"].push_back(append(document, "nodes", std::move(node)));
+    file::arrayAt(document["scenes"][0], "nodes")
+        .push_back(append(document, "nodes", std::move(node)));
   }
 }
 
