@@ -15,6 +15,7 @@
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/standard_streams.h"
 #include "apps/lambent/verbs.h"
+#include "lambent/file/atomic_file.h"
 #include "lambent/image/code_difference.h"
 #include "lambent/image/compare.h"
 #include "lambent/image/io.h"
@@ -175,12 +176,16 @@ Result<Outcome> compareReceivers(const CompareRequest& arguments) {
 
 /// The relative RMSE to be expected of the noise alone, if one of the files has a layer of
 /// variance.
-std::optional<double> noiseOf(const CompareRequest& arguments, const image::Image& a,
-                              const image::Image& b) {
+Result<std::optional<double>> noiseOf(const CompareRequest& arguments, const image::Image& a,
+                                      const image::Image& b) {
   double variance = 0.0, power = 0.0;
   bool known = false;
   for (const auto& path : {arguments.truth, arguments.judged}) {
-    const auto layer = image::readLayer(path, "variance", arguments.reading.forImage());
+    const auto bytes = file::readWhole(path);
+    if (!bytes) return bytes.error();
+    const auto layer =
+        image::decodeLayer(*bytes, path.string(), "variance", arguments.reading.forImage());
+    if (!layer && layer.error().kind != ErrorKind::BadInput) return layer.error();
     if (!layer || layer->pixels.size() != a.pixels.size()) continue;
     known = true;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
@@ -189,8 +194,8 @@ std::optional<double> noiseOf(const CompareRequest& arguments, const image::Imag
   }
   for (const Rgb& pixel : a.pixels)
     if (pixel.isFinite().all()) power += double(pixel.square().sum());
-  if (!known || !(power > 0.0)) return {};
-  return std::sqrt(variance / power);
+  if (!known || !(power > 0.0)) return std::optional<double>();
+  return std::optional<double>(std::sqrt(variance / power));
 }
 
 /// Only the pixels that either picture covers.
@@ -245,8 +250,10 @@ Result<Outcome> comparePictures(const CompareRequest& arguments, Console& consol
     return tone::toneMap(picture, options.exposureEv, curve);
   };
   const image::Image shownA = develop(*a, options.curve), shownB = develop(*b, options.curve);
+  const auto noise = noiseOf(arguments, *a, *b);
+  if (!noise) return noise.error();
   Outcome outcome{truth.size(), numbers ? *numbers : *whole, image::codeDifference(shownB, shownA),
-                  whole->flip,  options.exposureEv,          noiseOf(arguments, *a, *b)};
+                  whole->flip,  options.exposureEv,          *noise};
   if (developed) outcome.numbers.psnr = whole->psnr;
   if (outcome.numbers.nonFinitePixels > 0)
     console.warn("not-finite", fmt::format("{} pixels are not finite and were left out",

@@ -132,15 +132,20 @@ Result<Image> readLayer(const std::filesystem::path& path, std::string_view laye
                         const ReadOptions& options) {
   const Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
-  if (!formats::isExr(*bytes)) {
-    return report::badInput(path.string() + ": only OpenEXR pictures have further layers");
+  return decodeLayer(*bytes, path.string(), layer, options);
+}
+
+Result<Image> decodeLayer(std::span<const std::byte> bytes, std::string_view name,
+                          std::string_view layer, const ReadOptions& options) {
+  if (!formats::isExr(bytes)) {
+    return report::badInput(std::string(name) + ": only OpenEXR pictures have further layers");
   }
   file::Budget budget(options.memoryLimit);
-  budget.addFile(bytes->size());
+  budget.addFile(bytes.size());
   try {
-    return formats::readExr(*bytes, path.string(), budget, layer);
+    return formats::readExr(bytes, name, budget, layer);
   } catch (const std::bad_alloc&) {
-    return report::failed(path.string() + ": not enough memory to read the picture");
+    return report::failed(std::string(name) + ": not enough memory to read the picture");
   }
 }
 

@@ -37,6 +37,9 @@ Result<Image> decode(std::span<const std::byte> bytes, std::string_view name,
 /// that name, or if it is no EXR file.
 Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer,
                         const ReadOptions& options = {});
+/// The same of a file that was read already: BadInput is then about what it holds.
+Result<Image> decodeLayer(std::span<const std::byte> bytes, std::string_view name,
+                          std::string_view layer, const ReadOptions& options = {});
 
 struct WriteOptions {
   bool halfFloat = false;  ///< EXR: 16-bit channels instead of 32; finite values beyond ±65504 are
