@@ -1,16 +1,19 @@
 // lambent: bakes how light moves over an asset, and relights it.
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <exception>
 #include <new>
-#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "apps/lambent/console.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/interrupt.h"
 #include "apps/lambent/standard_streams.h"
 #include "apps/lambent/verbs.h"
+#include "lambent/file/atomic_file.h"
 #include "lambent/work/thread_limit.h"
 
 namespace {
@@ -19,8 +22,10 @@ using namespace lambent;
 using namespace lambent::tool;
 
 Status run(const Verb& verb, const ConsoleOptions& options, Console& console) {
-  std::optional<work::ThreadLimit> limit;
-  if (options.threads > 0) limit.emplace(options.threads);
+  // Never destroyed: oneTBB (2021.8) waits without end in there if it once got no memory to start.
+  static const work::ThreadLimit* const limit =
+      options.threads > 0 ? new work::ThreadLimit(options.threads) : nullptr;
+  (void)limit;
   try {
     return verb.run(console);
   } catch (const std::bad_alloc&) {
@@ -39,9 +44,8 @@ int say(std::string_view text) {
   return said ? kExitDone : kExitFailed;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// All of the tool, except for what is thrown out of it.
+int runTool(int argc, char** argv) {
   secureStandardStreams();
   installInterruptHandlers();
 
@@ -78,4 +82,48 @@ int main(int argc, char** argv) {
     return status ? kExitDone : console.fail(status.error());
   }
   return say(root.help());
+}
+
+/// To standard error, past all buffers.
+void cry(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+    if (written <= 0) return;
+    text.remove_prefix(size_t(written));
+  }
+}
+
+/// Says what was thrown. There may be no memory left to say it with.
+int cryFor(const std::exception_ptr& thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+    cry("error: unexpected end\n");
+  } catch (const std::bad_alloc&) {
+    cry("error: out of memory\n");
+  } catch (const std::exception& e) {
+    cry("error: unexpected: ");
+    cry(e.what());
+    cry("\n");
+  } catch (...) {
+    cry("error: unexpected exception\n");
+  }
+  return kExitFailed;
+}
+
+/// Destructors of libraries allocate (nlohmann-json's values, oneTBB's global_control): where they
+/// get no memory nothing can be caught any more.
+[[noreturn]] void onTerminate() {
+  file::AtomicFile::discardAll();
+  _exit(cryFor(std::current_exception()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::set_terminate(onTerminate);
+  try {
+    return runTool(argc, argv);
+  } catch (...) {  // before a verb began, or while its failure was being told
+    return cryFor(std::current_exception());
+  }
 }
