@@ -394,6 +394,10 @@ Result<std::vector<std::byte>> writeExr(const Image& image, std::string_view nam
       file.setFrameBuffer(frame);
       file.writePixels(image.height);
     }
+    // Of blocks that could not be packed, for want of memory, the library (3.1.5) says nothing and
+    // leaves them out.
+    MemoryInput input(output.bytes, streamName.c_str());
+    if (!Imf::MultiPartInputFile(input, 0, false).partComplete(0)) throw std::bad_alloc();
     return std::move(output.bytes);
   } catch (const std::bad_alloc&) {
     throw;
