@@ -78,8 +78,8 @@ install: product
 
 asan: setup-tests
 	@cmake --preset asan > build/asan-configure.log 2>&1 || { cat build/asan-configure.log; exit 1; }
-	@cmake --build build/asan --parallel $(JOBS) --target lambent_tool $(ASAN_ROOMS:%=lambent_%_tests)
-	@ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure -L '^($(call either,$(ASAN_ROOMS)))$$'
+	@cmake --build build/asan --parallel $(JOBS) --target lambent_tool lambent_fuzz_replay $(ASAN_ROOMS:%=lambent_%_tests)
+	@ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure -L '^($(call either,$(ASAN_ROOMS) fuzz))$$'
 
 tsan: setup-tests
 	@cmake --preset tsan > build/tsan-configure.log 2>&1 || { cat build/tsan-configure.log; exit 1; }

@@ -168,7 +168,9 @@ Description describeMesh(const asset::MeshSummary& mesh) {
     d.json["bi_scale"] = biScale.json;
     return d;
   }
-  const auto& [vectors, matrices, shadowed] = std::tie(mesh.vectors, mesh.matrices, mesh.shadowed);
+  const std::optional<asset::VectorsSummary>& vectors = mesh.vectors;
+  const std::optional<asset::MatricesSummary>& matrices = mesh.matrices;
+  const std::optional<asset::ShadowedSummary>& shadowed = mesh.shadowed;
   const auto vectorShape = [&](int channels) {
     return fmt::format(" vectors {}x{}", channels, vectors->bands * vectors->bands);
   };

@@ -1,21 +1,14 @@
 // What the thread sanitizer is to know of a loop whose threads are oneTBB's.
 //
-// oneTBB is not compiled with the sanitizer, which therefore sees neither how a loop's parts come
-// after what was before the loop, nor how all of them come before what is after it. These two are
-// told here, and no more: parts stay unordered among each other, so that a race between them is
-// found. Without the sanitizer nothing of this is compiled.
+// oneTBB is not compiled with the sanitizer (nor are, for its headers' sake, the files of this room
+// that include it), which therefore sees neither how a loop's parts come after what was before the
+// loop, nor how all of them come before what is after it. These two are told here, and no more:
+// parts stay unordered among each other, so that a race between them is found. CMake defines
+// LAMBENT_THREAD_SANITIZER; without it nothing of this is compiled.
 #pragma once
 
 #include <cstddef>
 #include <vector>
-
-#if defined(__SANITIZE_THREAD__)
-#define LAMBENT_THREAD_SANITIZER 1
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define LAMBENT_THREAD_SANITIZER 1
-#endif
-#endif
 
 #ifdef LAMBENT_THREAD_SANITIZER
 extern "C" void __tsan_acquire(void* address);

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "lambent/work/fork_join.h"
 #include "lambent/work/parallel_sort.h"
 #include "lambent/work/thread_limit.h"
 
@@ -80,6 +82,19 @@ TEST(ThreadLimit, HoldsWhileItLives) {
   });
   EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
 }
+
+#ifdef LAMBENT_THREAD_SANITIZER
+// That the other tests pass under the thread sanitizer says something: it does see our loops.
+TEST(ThreadSanitizer, SeesARaceBetweenThePartsOfALoop) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto race = [] {
+    long sum = 0;
+    parallelFor(1 << 16, [&](int i) { sum += i; });
+    _exit(0);  // the sanitizer makes 66 of it where it has reported
+  };
+  EXPECT_EXIT(race(), testing::ExitedWithCode(66), "data race");
+}
+#endif
 
 }  // namespace
 }  // namespace lambent::work
