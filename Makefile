@@ -79,12 +79,12 @@ install: product
 asan: setup-tests
 	@cmake --preset asan > build/asan-configure.log 2>&1 || { cat build/asan-configure.log; exit 1; }
 	@cmake --build build/asan --parallel $(JOBS) --target lambent_tool lambent_fuzz_replay $(ASAN_ROOMS:%=lambent_%_tests)
-	@ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure -L '^($(call either,$(ASAN_ROOMS) fuzz))$$'
+	@LAMBENT_ISA=baseline ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure -L '^($(call either,$(ASAN_ROOMS) fuzz))$$'
 
 tsan: setup-tests
 	@cmake --preset tsan > build/tsan-configure.log 2>&1 || { cat build/tsan-configure.log; exit 1; }
 	@cmake --build build/tsan --parallel $(JOBS) --target $(TSAN_ROOMS:%=lambent_%_tests)
-	@TSAN_OPTIONS='suppressions=$(CURDIR)/tools/tsan.supp:ignore_noninstrumented_modules=1' \
+	@LAMBENT_ISA=baseline TSAN_OPTIONS='suppressions=$(CURDIR)/tools/tsan.supp:ignore_noninstrumented_modules=1' \
 	  ctest --test-dir build/tsan --parallel $(JOBS) --output-on-failure -R '$(TSAN_TESTS)' \
 	  -L '^($(call either,$(TSAN_ROOMS)))$$'
 
