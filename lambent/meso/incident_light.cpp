@@ -41,8 +41,7 @@ LightRows::LightRows(int polar, int azimuth, int bands)
 }
 
 Irradiance::Irradiance(int bands)
-    : bands_(bands),
-      cosine_(sh::clampedCosine(bands)),
+    : cosine_(sh::clampedCosine(bands)),
       lobe_(static_cast<std::size_t>(sh::coefficientCount(bands))) {}
 
 void Irradiance::fromLattice(const Lattice& lattice, const Vec3& normal, const PeriodicCast& cast,

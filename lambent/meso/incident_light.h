@@ -45,7 +45,6 @@ class Irradiance {
                   double* out);
 
  private:
-  int bands_;
   sh::ZonalMoments cosine_;
   std::vector<float> weights_;
   std::vector<double> lobe_;
