@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kMostTexels = 16384;  // a side
 
-struct BakeArguments {
+struct BakeRequest {
   SceneArguments scene;
   std::filesystem::path output;
   TransferArguments transfer;
@@ -79,7 +79,7 @@ Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::s
   return grids;
 }
 
-Status runBake(BakeArguments arguments, Console& console) {
+Status runBake(BakeRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
   files.reads("SCENE", arguments.scene.path);
@@ -152,7 +152,7 @@ Status runBake(BakeArguments arguments, Console& console) {
 }  // namespace
 
 Verb addBake(CLI::App& root, ConsoleOptions& common) {
-  auto arguments = std::make_shared<BakeArguments>();
+  auto arguments = std::make_shared<BakeRequest>();
   CLI::App* app = root.add_subcommand(
       "bake", "Simulate once how light moves over a scene, and write an asset to relight");
   app->group("Verbs");

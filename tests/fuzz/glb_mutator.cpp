@@ -54,7 +54,9 @@ std::string joined(Chunks chunks) {
          chunks.binary;
 }
 
-std::string mutatedGlb(std::string_view file, std::size_t most, Dice& dice) {
+}  // namespace
+
+std::string mutated(std::string_view file, std::size_t most, Dice& dice) {
   if (!file.starts_with("glTF")) return mutatedJson(file, dice);
   if (dice.roll(20) == 0) return mutatedBytes(file, 16);
   Chunks chunks = split(file);
@@ -68,12 +70,4 @@ std::string mutatedGlb(std::string_view file, std::size_t most, Dice& dice) {
   return made.size() <= most ? made : std::string(file);
 }
 
-}  // namespace
 }  // namespace lambent::fuzz
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                               std::size_t most, unsigned seed) {
-  using namespace lambent::fuzz;
-  Dice dice(seed);
-  return giveBack(mutatedGlb({reinterpret_cast<const char*>(data), size}, most, dice), data, most);
-}

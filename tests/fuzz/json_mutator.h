@@ -31,6 +31,10 @@ std::string mutatedJson(std::string_view text, Dice& dice);
 /// `bytes` changed by libFuzzer, with room to grow by `growth`.
 std::string mutatedBytes(std::string_view bytes, std::size_t growth);
 
+/// What a target's own mutator makes of an input, of `most` bytes at most: one *_mutator.cpp for each
+/// format that has one.
+std::string mutated(std::string_view file, std::size_t most, Dice& dice);
+
 /// Copies as much of `input` as fits; the new size.
 std::size_t giveBack(std::string_view input, std::uint8_t* data, std::size_t most);
 

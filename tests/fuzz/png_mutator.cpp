@@ -68,7 +68,9 @@ void changeUnpacked(std::string& data) {
   data = packed;
 }
 
-std::string mutatedPng(std::string_view file, std::size_t most, Dice& dice) {
+}  // namespace
+
+std::string mutated(std::string_view file, std::size_t most, Dice& dice) {
   std::vector<Chunk> chunks = file.size() < kMagic ? std::vector<Chunk>() : split(file);
   if (chunks.empty() || dice.roll(20) == 0) return mutatedBytes(file, 16);
   const std::size_t index = dice.roll(chunks.size());
@@ -104,12 +106,4 @@ std::string mutatedPng(std::string_view file, std::size_t most, Dice& dice) {
   return made.size() <= most ? made : std::string(file);
 }
 
-}  // namespace
 }  // namespace lambent::fuzz
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                               std::size_t most, unsigned seed) {
-  using namespace lambent::fuzz;
-  Dice dice(seed);
-  return giveBack(mutatedPng({reinterpret_cast<const char*>(data), size}, most, dice), data, most);
-}

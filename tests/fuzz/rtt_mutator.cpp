@@ -30,7 +30,9 @@ std::size_t bytesFor(std::string_view header) {
   return coefficients * plane * (*encoding == "float16" ? 2 : 4);
 }
 
-std::string mutatedRtt(std::string_view file, std::size_t most, Dice& dice) {
+}  // namespace
+
+std::string mutated(std::string_view file, std::size_t most, Dice& dice) {
   if (!file.starts_with("LRTT") || file.size() < kHead || dice.roll(20) == 0) {
     return mutatedBytes(file, 16);
   }
@@ -55,12 +57,4 @@ std::string mutatedRtt(std::string_view file, std::size_t most, Dice& dice) {
   return made.size() <= most ? made : std::string(file);
 }
 
-}  // namespace
 }  // namespace lambent::fuzz
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
-                                               std::size_t most, unsigned seed) {
-  using namespace lambent::fuzz;
-  Dice dice(seed);
-  return giveBack(mutatedRtt({reinterpret_cast<const char*>(data), size}, most, dice), data, most);
-}
