@@ -1,0 +1,52 @@
+// What a person says of a sky, in words: the keys of the SOURCE `sky:KEY=VALUE,…` and the options of
+// `lambent sky --KEY VALUE`, which are the same. One table says how each is written and read.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lambent/report/finding.h"
+#include "lambent/report/result.h"
+#include "lambent/sky/make_sky.h"
+
+namespace lambent::sky {
+
+/// Angles in degrees here: this is the edge of the tool. Nothing: the person did not say.
+struct SkyRequest {
+  std::optional<std::string> date, time;  ///< "2026-06-21", "05:40" or "05:40:30"
+  double utcOffset = 0;                   ///< hours east of UTC
+  std::optional<double> latitude, longitude;
+  /// Instead of date, time and place. The azimuth is a compass bearing (north 0, east 90).
+  std::optional<double> sunElevation, sunAzimuth;
+  Model model = Model::Fast;
+  int cieType = 12;
+  std::string atmosphere = "clear";  ///< a preset's name, or the path of a .json
+  std::optional<double> turbidity, albedo, ozone;
+  std::optional<double> directNormal, diffuseHorizontal;  ///< W m⁻², of Perez and ASRC-CIE
+  double altitude = 0;                                    ///< m
+  int refine = 0;
+};
+
+struct RequestKey {
+  std::string_view key;     ///< "utc-offset"
+  std::string_view syntax;  ///< "HOURS"
+  std::string_view help;    ///< a line for a person
+  std::string_view group;   ///< "Moment", "Sun", "Air", "Model"
+  Status (*set)(SkyRequest&, std::string_view value);  ///< BadUsage says what is wrong and the range
+};
+std::span<const RequestKey> requestKeys();
+
+/// A request with its Sun found.
+struct ResolvedSky {
+  SkyOptions options;
+  double sunBearing = 0;  ///< compass bearing of the Sun, rad
+  /// Turns the Sun's frame of a Dome to the world: +x of the frame to the Sun's azimuth.
+  Mat3d worldFromSun = Mat3d::Identity();
+};
+/// BadUsage: what is missing (a date without a place, …) or contradicts; BadInput: a file.
+/// A Sun below −18° is refused with its elevation: that is night.
+Result<WithFindings<ResolvedSky>> resolve(const SkyRequest& request);
+
+}  // namespace lambent::sky
