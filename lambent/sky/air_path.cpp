@@ -96,6 +96,7 @@ AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, d
         node.altitude =
             std::max(0.0, shell.altitudeAlong(altitude, cosine, node.distance));
         node.weight = rule.rule.weights[i] * length;
+        node.horizon = std::acos(shell.horizonCosine(node.altitude));
         for (int part = 0; part < kParts; ++part)
           node.density[part] = float(medium.profiles[part].at(node.altitude));
         path.nodes.push_back(node);

@@ -16,7 +16,7 @@ constexpr int kLengthAltitudes = 80, kLengthAngles = 112;
 }
 
 double SunLengths::horizonAngle(double altitude) const {
-  return kPi / 2 + std::atan2(std::sqrt(altitude * (2 * shell_.radius + altitude)), shell_.radius);
+  return std::acos(shell_.horizonCosine(altitude));
 }
 
 SunLengths::SunLengths(const Medium& medium)
