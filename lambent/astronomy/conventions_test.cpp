@@ -2,6 +2,7 @@
 // both come to.
 #include <cmath>
 #include <fstream>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 #include "lambent/astronomy/moment.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>

@@ -4,6 +4,7 @@
 
 #include <erfa.h>
 #include <erfam.h>
+#include <Eigen/Geometry>
 
 #include "lambent/astronomy/appendix.h"
 #include "lambent/astronomy/observer.h"

@@ -1,5 +1,6 @@
 #include "lambent/astronomy/moon.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -1,5 +1,6 @@
 #include "lambent/astronomy/sun.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
