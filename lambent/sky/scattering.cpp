@@ -58,12 +58,11 @@ Result<Scattering> Scattering::solve(Medium medium, const Resolution& resolution
   impl->sunLengths = SunLengths(m);
 
   Grid& grid = impl->grid;
-  grid = {m.shell.height, resolution.sunDensity, 0,
-          0,              resolution.altitudes,  resolution.zeniths,
-          resolution.azimuths};
+  grid = {m.shell.height,     resolution.sunDensity, 0, 0, resolution.altitudes,
+          resolution.zeniths, resolution.azimuths};
   grid.first = grid.sunCoordinate(std::max(0.0, resolution.sunFrom));
-  grid.suns = std::max(
-      4, int(std::ceil(grid.sunCoordinate(std::min(resolution.sunTo, kLastZenith)))) + 1);
+  grid.suns =
+      std::max(4, int(std::ceil(grid.sunCoordinate(std::min(resolution.sunTo, kLastZenith)))) + 1);
 
   impl->split.nodes = resolution.nodes;
   impl->split.depth = resolution.depth;
@@ -129,8 +128,7 @@ AirLight Scattering::along(const RayInAir& ray, double end) const {
       light.air.push_back(double(sums.air[l]));
       light.aerosol.push_back(double(sums.aerosol[l]));
       light.multiple.push_back(double(sums.multiple[l]));
-      light.ground.push_back(double(through[l] * (diffuse[l] + direct[l]) * block.albedo[l]) /
-                             kPi);
+      light.ground.push_back(double(through[l] * (diffuse[l] + direct[l]) * block.albedo[l]) / kPi);
       light.transmittance.push_back(double(through[l]));
     }
   }

@@ -36,9 +36,12 @@ struct LocalFrame {
 MarchKernels marchKernels() {
 #if defined(__x86_64__)
   switch (math::bestIsa()) {
-    case math::Isa::Avx512: return avx512::marchKernels();
-    case math::Isa::Avx2: return avx2::marchKernels();
-    case math::Isa::Baseline: break;
+    case math::Isa::Avx512:
+      return avx512::marchKernels();
+    case math::Isa::Avx2:
+      return avx2::marchKernels();
+    case math::Isa::Baseline:
+      break;
   }
 #endif
   return baseline::marchKernels();
@@ -104,8 +107,8 @@ void Scattering::Impl::prepareOnce(const AirPath& path, const RayInAir& ray, Sha
     const double sunZenith =
         std::acos(LocalFrame(medium.shell, path, node, ray, sunCosine).sunCosine);
     const double above = node.horizon - sunZenith;
-    out.sunVisible = shadow == Shadow::Soft ? float(discAbove(above / kSunRadius))
-                                            : (above >= 0 ? 1.0f : 0.0f);
+    out.sunVisible =
+        shadow == Shadow::Soft ? float(discAbove(above / kSunRadius)) : (above >= 0 ? 1.0f : 0.0f);
     if (out.sunVisible > 0)
       sunLengths.at(node.altitude, sunZenith, out.sunLength);
     else
@@ -167,8 +170,7 @@ void Scattering::Impl::prepareAgain(const AirPath& path, const RayInAir& ray,
 double Scattering::Impl::sunZenithAtEnd(const AirPath& path, const RayInAir& ray) const {
   const double r0 = medium.shell.radius + path.altitude;
   return std::acos(std::clamp(
-      (r0 * std::cos(ray.sunZenith) + path.end * ray.towardsSun) / medium.shell.radius, -1.0,
-      1.0));
+      (r0 * std::cos(ray.sunZenith) + path.end * ray.towardsSun) / medium.shell.radius, -1.0, 1.0));
 }
 
 void Scattering::Impl::direct(const Block& block, double sunZenith, float (&out)[kLanes]) const {

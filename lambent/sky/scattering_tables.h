@@ -13,9 +13,9 @@ MarchKernels marchKernels();
 /// The nodes of the tables: *cells*, pairs of the Sun's zenith angle and an altitude, with
 /// directions in each.
 struct Grid {
-  double height = 0;              ///< of the top of the air, m
-  double density = 1;             ///< of the Sun's zenith angles, see Resolution
-  double first = 0;               ///< coordinate of the first of them
+  double height = 0;   ///< of the top of the air, m
+  double density = 1;  ///< of the Sun's zenith angles, see Resolution
+  double first = 0;    ///< coordinate of the first of them
   int suns = 0, altitudes = 0, zeniths = 0, azimuths = 0;
 
   /// 5° between nodes by day and 1° in twilight, with a smooth change about 78°.

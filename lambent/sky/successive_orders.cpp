@@ -81,8 +81,8 @@ Arrivals arrivalsAt(double altitude, const Scattering::Impl& s) {
 }
 
 /// Light that arrived, [arrival][lane], as a cell holds it.
-void weigh(const Arrivals& arrivals, const std::vector<float>& radiance, const Grid& grid,
-           int cell, Held& held) {
+void weigh(const Arrivals& arrivals, const std::vector<float>& radiance, const Grid& grid, int cell,
+           Held& held) {
   const std::size_t count = arrivals.directions.size();
   float moments[4][kLanes] = {};
   for (std::size_t i = 0; i < count; ++i) {
@@ -187,8 +187,7 @@ class Step {
       const float air = float(media::evaluate(media::RayleighPhase{}, ray.towardsSun));
       const float aerosol = float(media::evaluate(s_.medium.aerosolPhase, ray.towardsSun));
       for (int l = 0; l < kLanes; ++l)
-        radiance[l] =
-            once_ ? air * sums.air[l] + aerosol * sums.aerosol[l] : sums.multiple[l];
+        radiance[l] = once_ ? air * sums.air[l] + aerosol * sums.aerosol[l] : sums.multiple[l];
     }
     if (!path.hitsGround) return;
     float light[kLanes], through[kLanes];
@@ -282,8 +281,9 @@ Status Scattering::Impl::addOrders(const Progress& progress) {
     Sum sum(grid, block);
     for (int order = 1; order <= resolution.orders; ++order) {
       const Step step(*this, block, arrivals, before, order == 1);
-      const Status ran = runner.run({.name = "light in the air", .unit = "cells"}, cells,
-                                    [&](const work::Chunk& chunk) { step(int(chunk.index), next); });
+      const Status ran =
+          runner.run({.name = "light in the air", .unit = "cells"}, cells,
+                     [&](const work::Chunk& chunk) { step(int(chunk.index), next); });
       if (!ran) return ran;
       orders = std::max(orders, order);
       if (sum.add(next) < resolution.tolerance) break;
