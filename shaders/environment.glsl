@@ -12,7 +12,9 @@ uniform int discCount;
 // In the environment's frame: a unit axis, and the versine, 1 − cos of half the angular diameter: 1
 // for half of the sphere, 2 for all of it.
 uniform vec4 discs[kMostDiscs];
-uniform vec3 discRadiances[kMostDiscs];
+uniform vec3 discRadiances[kMostDiscs];   // of their centres
+uniform vec3 discDarkenings[kMostDiscs];  // u in 1 - u (1 - mu), from the centre to the limb
+uniform vec4 discHorizons[kMostDiscs];    // seen where xyz.d >= w
 
 vec3 latLongTexel(sampler2D map, ivec2 texel);  // row 0 is at the zenith
 vec3 radianceOfMaps(vec3 d);                    // d: unit, in the environment's frame
@@ -39,7 +41,10 @@ vec3 environmentRadiance(vec3 worldDirection) {
   for (int k = 0; k < discCount; ++k) {
     // |d − axis|² = 2 (1 − cos): compares small angles without cancellation.
     vec3 off = d - discs[k].xyz;
-    if (dot(off, off) <= 2.0 * discs[k].w) sum += discRadiances[k];
+    float inside = 2.0 * discs[k].w - dot(off, off);
+    if (inside < 0.0 || dot(d, discHorizons[k].xyz) < discHorizons[k].w) continue;
+    float mu = sqrt(inside / (2.0 * discs[k].w));
+    sum += discRadiances[k] * (vec3(1.0) - discDarkenings[k] * (1.0 - mu));
   }
   return sum;
 }

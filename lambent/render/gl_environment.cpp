@@ -36,11 +36,6 @@ Texture pictureOf(const Environment& environment, int width) {
   return texture;
 }
 
-Environment discOf(const Environment::Parts::Disc& disc) {
-  return Environment::disc(disc.axis, 4.0 * std::asin(std::sqrt(0.5 * disc.versine)),
-                           disc.radiance);
-}
-
 }  // namespace
 
 std::string environmentSource() {
@@ -66,7 +61,7 @@ Status GlEnvironment::set(const Environment& environment, int largestTexture) {
     parts.images.erase(parts.images.begin() + std::ptrdiff_t(k));
   }
   for (; parts.discs.size() > kMostDiscs; sharp = true) {
-    rest = rest + discOf(parts.discs.back());
+    rest = rest + Environment::disc(parts.discs.back());
     parts.discs.pop_back();
   }
 
@@ -103,6 +98,10 @@ void GlEnvironment::bind(const Program& program, const Mat3& environmentFromWorl
                 float(disc.versine));
     program.set(fmt::format("discRadiances[{}]", k).c_str(), disc.radiance[0], disc.radiance[1],
                 disc.radiance[2]);
+    program.set(fmt::format("discDarkenings[{}]", k).c_str(), disc.darkening[0], disc.darkening[1],
+                disc.darkening[2]);
+    program.set(fmt::format("discHorizons[{}]", k).c_str(), disc.up.x(), disc.up.y(), disc.up.z(),
+                float(disc.horizon));
   }
   glBindTextureUnit(1, picture_.name());
   glBindTextureUnit(2, rest_.name());

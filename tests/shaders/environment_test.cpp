@@ -42,6 +42,8 @@ void show(const Environment::Parts& parts, const Mat3& environmentFromWorld) {
     const auto& disc = parts.discs[k];
     seen::discs[k] = vec4(from(disc.axis), float(disc.versine));
     seen::discRadiances[k] = from(disc.radiance);
+    seen::discDarkenings[k] = from(disc.darkening);
+    seen::discHorizons[k] = vec4(from(disc.up), float(disc.horizon));
   }
   static Picture picture;
   seen::map = nullptr;
@@ -57,6 +59,7 @@ bool isOnABorder(const Environment::Parts& parts, const Vec3& d) {
   for (const auto& disc : parts.discs) {
     const double off = (d - disc.axis).cast<double>().squaredNorm();
     if (std::abs(off - 2 * disc.versine) < 1e-6 * std::sqrt(disc.versine)) return true;
+    if (std::abs(double(d.dot(disc.up)) - disc.horizon) < 1e-6) return true;
   }
   return false;
 }
@@ -116,6 +119,21 @@ TEST(EnvironmentText, DiscsAreTheLibrarys) {
   expectSame(sum, 3, 2e-6f);
   expectSame(sum, 4, 2e-6f, sun, 0.1f);
   expectSame(sum, 5, 2e-6f, sun, 0.008f);
+}
+
+// One that stands free, and one that is half set.
+TEST(EnvironmentText, DarkenedDiscsAreTheLibrarys) {
+  for (const double elevation : {0.4, 0.01}) {
+    const Vec3 sun = math::directionFromAzimuthElevation(1, elevation).cast<float>();
+    const Environment light = Environment::disc({.direction = sun,
+                                                 .angularDiameter = 0.1,
+                                                 .irradiance = Rgb(0.003f, 0.002f, 0.001f),
+                                                 .darkening = Rgb(0.5f, 0.6f, 0.7f),
+                                                 .horizon = 0});
+    // At the rim the root of what is left of the radius grows without bound.
+    expectSame(light, 6, 2e-3f, sun, 0.08f);
+    expectSame(light, 7, 1e-5f, sun, 0.02f);
+  }
 }
 
 TEST(EnvironmentText, AFullDiscIsEverywhere) {
