@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lambent/light/component.h"
+#include "lambent/light/skylight.h"
 
 namespace lambent::light {
 
@@ -17,6 +18,9 @@ struct DiscShape {
 };
 ComponentPtr makeDisc(const DiscShape& shape);
 ComponentPtr makeLimbDarkened(const Environment::LimbDarkened& disc);
+/// Radiance where up·s ≤ sine of the horizon.
+ComponentPtr makeGround(const Vec3d& up, double horizon, const Rgb& radiance);
+ComponentPtr makeSkylight(std::shared_ptr<const Skylight> light, const Mat3& worldFromSky);
 ComponentPtr makeDirectional(const Vec3d& direction, const Rgb& irradiance);
 ComponentPtr makeClampedCosine(const Vec3d& axis, const Rgb& radiance);
 ComponentPtr makeHarmonics(sh::RgbCoefficients coefficients);

@@ -1,4 +1,5 @@
-// Discs: of constant radiance, or darker towards the limb and cut by a horizon, as the Sun is.
+// Discs: of constant radiance, or darker towards the limb and cut by a horizon, as the Sun is; and the
+// ground below a horizon, which is all that a horizon leaves of a disc that covers everything.
 //
 // Legend: v the versine of the disc, 1 − cos of half its angular diameter; t = (1 − cos θ)/v in
 // 0 … 1, which is uniform in solid angle; μ = √(1 − t). For a small disc t = (θ/half diameter)², so
@@ -176,11 +177,54 @@ class Disc final : public Component {
   std::optional<std::vector<Node>> visible_;  ///< of a disc that the horizon cuts
 };
 
+class Ground final : public Component {
+ public:
+  Ground(const Vec3d& up, double horizon, const Rgb& radiance)
+      : up_(up), horizon_(horizon), radiance_(radiance) {}
+  double power() const override { return solidAngle() * importance(radiance_); }
+  Rgb radiance(const Vec3& direction) const override {
+    return isBelow(direction) ? radiance_ : Rgb(Rgb::Zero());
+  }
+  double pdf(const Vec3& direction) const override {
+    return isBelow(direction) ? 1 / solidAngle() : 0;
+  }
+  Drawn draw(double u1, double u2) const override {
+    return {aroundAxis(-up_, u1 * (1 + horizon_), u2).cast<float>(), radiance_, 1 / solidAngle()};
+  }
+  void addProjection(int bands, std::span<double> out) const override {
+    addZonal(sh::cap(bands, halfDiameter(1 + horizon_)), -up_, radiance_, out);
+  }
+  ComponentPtr rotated(const Mat3& dstFromSrc) const override {
+    return makeGround(turned(dstFromSrc, up_), horizon_, radiance_);
+  }
+  bool addTo(Environment::Parts& parts) const override {
+    const Vec3 down = -up_.cast<float>();
+    parts.discs.push_back({down, 2, radiance_, Rgb::Zero(), down, -horizon_});
+    return true;
+  }
+
+ private:
+  double solidAngle() const { return 2 * kPi * (1 + horizon_); }
+  bool isBelow(const Vec3& direction) const {
+    return direction.cast<double>().dot(up_) <= horizon_;
+  }
+  Vec3d up_;
+  double horizon_;  ///< a sine
+  Rgb radiance_;
+};
+
 }  // namespace
+
+ComponentPtr makeGround(const Vec3d& up, double horizon, const Rgb& radiance) {
+  if (!(horizon > -1)) return makeUniform(Rgb::Zero());
+  return std::make_shared<Ground>(up.normalized(), std::min(horizon, 1.0), radiance);
+}
 
 ComponentPtr makeDisc(const DiscShape& shape) {
   assert(shape.versine <= 2 * (1 + 1e-12));
   if (!(shape.versine > 0)) return makeUniform(Rgb::Zero());  // a disc without area is black
+  if (shape.versine >= 2 && !shape.up.isZero())
+    return makeGround(-shape.up, -shape.horizon, shape.radiance);
   DiscShape unit = shape;
   unit.axis.normalize();
   if (!unit.up.isZero()) unit.up.normalize();
@@ -195,7 +239,7 @@ ComponentPtr makeLimbDarkened(const Environment::LimbDarkened& disc) {
                   .radiance = Rgb::Ones(),
                   .darkening = disc.darkening,
                   .up = disc.up.cast<double>().normalized(),
-                  .horizon = std::sin(disc.horizon)};
+                  .horizon = disc.horizon > -kPi / 2 ? std::sin(disc.horizon) : -2};
   const double v = shape.versine;
   Eigen::Array3d irradiance;  // of a centre of 1
   if (isCut(shape)) {

@@ -44,6 +44,13 @@ Environment Environment::disc(const Vec3& direction, double angularDiameter, con
 Environment Environment::disc(const LimbDarkened& disc) {
   return of(makeLimbDarkened(disc));
 }
+Environment Environment::skylight(std::shared_ptr<const Skylight> light, const Mat3& worldFromSky) {
+  assert(light);
+  return of(makeSkylight(std::move(light), worldFromSky));
+}
+Environment Environment::ground(const Vec3& up, double horizon, const Rgb& radiance) {
+  return of(makeGround(up.cast<double>(), std::sin(horizon), radiance));
+}
 Environment Environment::disc(const Disc& disc) {
   return of(makeDisc({disc.axis.cast<double>(), disc.versine, disc.radiance, disc.darkening,
                       disc.up.cast<double>(), disc.horizon}));

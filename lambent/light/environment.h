@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lambent/image/image.h"
@@ -12,6 +13,7 @@
 namespace lambent::light {
 
 class Component;
+class Skylight;
 
 /// Radiance from every direction (W m⁻² sr⁻¹ per channel), directions in world space pointing away
 /// from the scene. A value: cheap to copy, immutable, thread-safe.
@@ -47,7 +49,12 @@ class Environment {
   /// u = atan2(z, x)/2π + ½ and elevation asin(y) = π(½ − v); bilinear between the pixels' centres.
   /// Pixels that are not finite count as black; negative ones stay.
   static Environment latLong(image::Image image);
-  /// A disc as parts() tells it.
+  /// The light above a horizon (skylight.h), turned from its own frame, a proper rotation.
+  static Environment skylight(std::shared_ptr<const Skylight> light, const Mat3& worldFromSky);
+  /// The same radiance from everywhere at the horizon and below it: what a sky leaves dark.
+  /// `horizon` is its elevation about the unit vector `up`, rad.
+  static Environment ground(const Vec3& up, double horizon, const Rgb& radiance);
+  /// A disc, or a ground, as parts() tells it.
   struct Disc {
     Vec3 axis;                    ///< unit
     double versine;               ///< 1 − cos of half the angular diameter
@@ -102,9 +109,16 @@ struct Environment::Parts {
     std::shared_ptr<const image::Image> image;
     Mat3 worldFromImage;
   };
+  /// As skylight(); rotations of one another share the light.
+  struct Sky {
+    std::shared_ptr<const Skylight> light;
+    Mat3 worldFromSky;
+    double horizon;  ///< its sine: seen where up·s is above it, up being worldFromSky's column 1
+  };
   Rgb uniform = Rgb::Zero();
   std::vector<Disc> discs;
   std::vector<LatLong> images;
+  std::optional<Sky> sky;           ///< the first, if there are several
   std::vector<Environment> others;  ///< of one component each
 };
 

@@ -12,6 +12,7 @@
 
 #include "lambent/light/grid_distribution.h"
 #include "lambent/light/test_component.h"
+#include "lambent/light/test_skylight.h"
 #include "lambent/math/directions.h"
 #include "lambent/math/quadrature.h"
 #include "lambent/math/random.h"
@@ -71,6 +72,12 @@ std::vector<Case> allKinds() {
                                                      .irradiance = Rgb(3, 2, 1),
                                                      .darkening = Rgb(0.5f, 0.6f, 0.7f),
                                                      .horizon = 0})});
+  cases.push_back({"ground", Environment::ground(b, -0.2, Rgb(1, 0.2f, 0))});
+  cases.push_back(
+      {"sky", Environment::skylight(std::make_shared<test::Glow>(-0.1, Rgb(1, 2, 3)), turn)});
+  cases.push_back(
+      {"black sky", Environment::skylight(std::make_shared<test::Glow>(0, Rgb::Zero()), turn) +
+                        Environment::ground(turn.col(1), 0, Rgb(1, 2, 3))});
   cases.push_back({"cosine", Environment::clampedCosine(a, Rgb(0, 1, 3))});
   cases.push_back({"harmonics", Environment::harmonics(randomHarmonics(5, 3))});
   cases.push_back({"image", Environment::latLong(randomImage(32, 16, 5))});

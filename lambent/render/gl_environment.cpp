@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "lambent/light/skylight.h"
 #include "lambent/math/directions.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/work/parallel_for.h"
@@ -33,6 +34,23 @@ Texture pictureOf(const Environment& environment, int width) {
   });
   Texture texture = makeTexture(GL_RGB32F, width, height);
   glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, texels.data());
+  return texture;
+}
+
+/// Laid out as sampleSkylight (shaders/environment.glsl) looks it up.
+Texture skyOf(const light::Skylight& sky) {
+  constexpr int kWidth = kSmoothWidth, kHeight = kSmoothWidth / 2;
+  std::vector<Rgb> texels(std::size_t(kWidth) * kHeight);
+  const double horizon = sky.horizon();
+  work::parallelFor(kHeight, [&](int y) {
+    const double v = 1 - double(y) / (kHeight - 1);
+    const double elevation = horizon + (kPi / 2 - horizon) * v * v;
+    for (int x = 0; x < kWidth; ++x)
+      texels[std::size_t(y) * kWidth + x] = sky.radiance(
+          math::directionFromAzimuthElevation(2.0 * kPi * ((x + 0.5) / kWidth - 0.5), elevation));
+  });
+  Texture texture = makeTexture(GL_RGB32F, kWidth, kHeight);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, kWidth, kHeight, GL_RGB, GL_FLOAT, texels.data());
   return texture;
 }
 
@@ -78,6 +96,13 @@ Status GlEnvironment::set(const Environment& environment, int largestTexture) {
                         image->pixels.data());
     uploaded_ = image;
   }
+  if (!parts.sky) {
+    sky_ = Texture();
+    skyUploaded_.reset();
+  } else if (const auto& light = parts.sky->light; light != skyUploaded_) {
+    sky_ = skyOf(*light);
+    skyUploaded_ = light;
+  }
   parts.others.clear();
   parts_ = std::move(parts);
   return checkGl("uploading the environment");
@@ -91,6 +116,12 @@ void GlEnvironment::bind(const Program& program, const Mat3& environmentFromWorl
   if (!parts_.images.empty())
     program.setMatrix("pictureFromEnvironment",
                       Mat3(parts_.images.front().worldFromImage.transpose()));
+  program.set("hasSky", int(parts_.sky.has_value()));
+  if (parts_.sky) {
+    const Vec3 up = parts_.sky->worldFromSky.col(1);
+    program.setMatrix("skylightFromEnvironment", Mat3(parts_.sky->worldFromSky.transpose()));
+    program.set("skylightHorizon", up.x(), up.y(), up.z(), float(parts_.sky->horizon));
+  }
   program.set("discCount", int(parts_.discs.size()));
   for (std::size_t k = 0; k < parts_.discs.size(); ++k) {
     const auto& disc = parts_.discs[k];
@@ -105,6 +136,7 @@ void GlEnvironment::bind(const Program& program, const Mat3& environmentFromWorl
   }
   glBindTextureUnit(1, picture_.name());
   glBindTextureUnit(2, rest_.name());
+  glBindTextureUnit(3, sky_.name());
 }
 
 }  // namespace lambent::render
