@@ -1,8 +1,10 @@
 // This work is based on rigollier2000clear for clear skies' irradiance:
-//   direct  E₀ e^(−.8662 T m δ_R(m)), 1 / δ_R = 6.6296 + 1.7513 m − .1202 m² + .0065 m³ − .00013 m⁴,
+//   direct  E₀ e^(−.8662 T m δ_R(m)),
+//           1 / δ_R = 6.6296 + 1.7513 m − .1202 m² + .0065 m³ − .00013 m⁴,
 //           or 10.4 + .718 m for m > 20 (kasten1996linke), m the air mass of kasten1989revised;
 //   diffuse E₀ T_rd(T) F_d(h, T), both polynomials.
-// Deviation: Preetham's turbidity, a ratio for visible light, stands for Linke's, a ratio for all of it.
+// Deviation: Preetham's turbidity, a ratio for visible light, stands for Linke's, a ratio for all
+// of it.
 #include "lambent/sky/analytic_sky.h"
 
 #include <algorithm>
@@ -45,8 +47,8 @@ double irradianceOfSun(const SkyOptions& options, double nm) {
          (options.sunDistance * options.sunDistance);
 }
 
-/// The dome of a model, whether its Sun shines, and the illuminance on a surface facing it where the
-/// model knows that itself.
+/// The dome of a model, whether its Sun shines, and the illuminance on a surface facing it where
+/// the model knows that itself.
 struct DomeAndSun {
   std::shared_ptr<const Dome> dome;
   bool shines = true;

@@ -12,8 +12,9 @@
 namespace lambent::sky {
 namespace {
 
-// Turbidity, Sun's zenith angle in degrees, zenith luminance in cd/m², zenith x and y, and luminance at
-// 60° from the zenith, 90° of azimuth from the Sun: reference rows computed apart from this code.
+// Turbidity, Sun's zenith angle in degrees, zenith luminance in cd/m², zenith x and y, and
+// luminance at 60° from the zenith, 90° of azimuth from the Sun: reference rows computed apart from
+// this code.
 constexpr double kPreethamRows[][6] = {
     {2, 0, 15500.7, 0.26674, 0.27720, 8041.5},    {2, 30, 5886.7, 0.25142, 0.25592, 6858.7},
     {2, 60, 3487.3, 0.23801, 0.24199, 6447.3},    {2, 80, 2457.5, 0.25800, 0.27088, 5284.4},
@@ -115,7 +116,8 @@ TEST(AirMass, KnownValues) {
 TEST(Twilight, MonotoneAndOfKnownDepth) {
   EXPECT_DOUBLE_EQ(twilightFactor(.3), 1);
   EXPECT_DOUBLE_EQ(twilightFactor(0), 1);
-  // Tables of twilight: 3.4 lx at the end of civil twilight, .008 and .0006 of nautical and astronomical.
+  // Tables of twilight: 3.4 lx at the end of civil twilight, .008 and .0006 of nautical and
+  // astronomical.
   EXPECT_NEAR(758.6 * twilightFactor(-6 * test::kDegree), 3.4, .3);
   EXPECT_NEAR(758.6 * twilightFactor(-12 * test::kDegree), .0083, .001);
   EXPECT_NEAR(758.6 * twilightFactor(-18 * test::kDegree), .00065, .0001);

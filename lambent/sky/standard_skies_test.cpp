@@ -105,8 +105,8 @@ TEST(StandardSkies, QuadratureOfTheDome) {
 }
 
 TEST(ClearSky, AnchorsOfGensky) {
-  // gensky +s with the Sun at 45° and its turbidity of 2.45: a zenith of 9.563 W/m²/sr by an efficacy of
-  // 203 lm/W, and the normalisation .5707 = .274 f(45°).
+  // gensky +s with the Sun at 45° and its turbidity of 2.45: a zenith of 9.563 W/m²/sr by an
+  // efficacy of 203 lm/W, and the normalisation .5707 = .274 f(45°).
   const GradedSky sky = cieClear(45 * test::kDegree);
   EXPECT_NEAR(sky.zenithLuminance / 203, 9.563, 1e-3);
   SkyAngles toSun;
@@ -116,7 +116,7 @@ TEST(ClearSky, AnchorsOfGensky) {
   EXPECT_NEAR(1 - std::exp(-.32), .274, 2e-4);
 }
 
-TEST(ClearSky, SeedsFormula) {
+TEST(ClearSky, FormulaOf1973) {
   const double sunZenith = 50 * test::kDegree;
   const GradedSky sky = cieClear(kPi / 2 - sunZenith);
   for (const double zenith : {0., 30., 60., 85.}) {
