@@ -51,8 +51,7 @@ AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, d
   } else if (!ground) {
     path.end = std::min(path.end, shell.exitAt(shell.height, altitude, cosine).value_or(0));
   }
-  std::vector<double> ends =
-      media::smoothPieces(shell, altitude, cosine, path.end, split.levels);
+  std::vector<double> ends = media::smoothPieces(shell, altitude, cosine, path.end, split.levels);
   for (const double place : breaks)
     if (place > 0 && place < path.end) ends.push_back(place);
   std::sort(ends.begin(), ends.end());
@@ -66,7 +65,7 @@ AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, d
   const Rule& rule = ruleOf(split.nodes);
   const int n = int(rule.rule.nodes.size());
   double passed[kParts] = {};
-  const auto depthOf = [&](const double (&lengths)[kParts], const double (&extinction)[kParts]) {
+  const auto depthOf = [&](const double(&lengths)[kParts], const double(&extinction)[kParts]) {
     double depth = 0;
     for (int part = 0; part < kParts; ++part) depth += lengths[part] * extinction[part];
     return depth;
@@ -80,8 +79,7 @@ AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, d
       for (int part = 0; part < kParts; ++part)
         guess[part] += (t == 0.5 ? 4.0 / 9 : 2.5 / 9) * span * medium.profiles[part].at(h);
     }
-    const int pieces =
-        std::clamp(int(std::ceil(depthOf(guess, thickest) / split.depth)), 1, 400);
+    const int pieces = std::clamp(int(std::ceil(depthOf(guess, thickest) / split.depth)), 1, 400);
     for (int piece = 0; piece < pieces; ++piece) {
       if (depthOf(passed, thinnest) > split.opaque) {
         path.end = ends[p] + span * piece / pieces;
@@ -93,9 +91,9 @@ AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, d
       for (int i = 0; i < n; ++i) {
         AirPath::Node node{};
         node.distance = from + rule.rule.nodes[i] * length;
-        node.altitude =
-            std::max(0.0, shell.altitudeAlong(altitude, cosine, node.distance));
+        node.altitude = std::max(0.0, shell.altitudeAlong(altitude, cosine, node.distance));
         node.weight = rule.rule.weights[i] * length;
+        node.horizon = std::acos(shell.horizonCosine(node.altitude));
         for (int part = 0; part < kParts; ++part)
           node.density[part] = float(medium.profiles[part].at(node.altitude));
         path.nodes.push_back(node);
@@ -109,7 +107,8 @@ AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, d
         }
       for (int i = 0; i < n; ++i)
         for (int part = 0; part < kParts; ++part)
-          passed[part] += rule.rule.weights[i] * length * double(path.nodes[first + i].density[part]);
+          passed[part] +=
+              rule.rule.weights[i] * length * double(path.nodes[first + i].density[part]);
     }
   }
 done:

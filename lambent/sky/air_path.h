@@ -8,9 +8,13 @@
 
 namespace lambent::sky {
 
+/// Farther than any path goes, m.
+inline constexpr double kEndless = 1e12;
+
 struct AirPath {
   struct Node {
     double distance, altitude, weight;  ///< m
+    double horizon;                     ///< zenith angle of it, rad
     float density[kParts];
     float length[kParts];  ///< optical lengths from the origin to here, m
   };

@@ -37,8 +37,7 @@ double Spectral::at(double nanometres) const {
 }
 
 Atmosphere withTurbidity(Atmosphere atmosphere, double turbidity) {
-  atmosphere.aerosols =
-      Atmosphere::Angstrom{std::max(0.0, 0.04608 * turbidity - 0.04586), 1.3};
+  atmosphere.aerosols = Atmosphere::Angstrom{std::max(0.0, 0.04608 * turbidity - 0.04586), 1.3};
   atmosphere.turbidity = turbidity;
   return atmosphere;
 }

@@ -30,13 +30,13 @@ struct MarchNode {
 
 /// Scattered radiance by place and direction; each pointer is to kLanes floats for every item.
 struct MarchTables {
-  const float* extinction[3];   ///< of each Part at density 1, 1/m
-  const float* scattering[2];   ///< of air and aerosol
-  const float* logScale;        ///< [cell]: what the rest of the cell is to be multiplied by
-  const float* moments;         ///< [cell][4]: ∫ radiance (xx, yy, zz, xy)
-  const float* aerosol;         ///< [cell][direction]: ∫ radiance · phase of aerosols
-  int directions;               ///< in a cell
-  int azimuthStride;            ///< directions of one zenith angle
+  const float* extinction[3];  ///< of each Part at density 1, 1/m
+  const float* scattering[2];  ///< of air and aerosol
+  const float* logScale;       ///< [cell]: what the rest of the cell is to be multiplied by
+  const float* moments;        ///< [cell][4]: ∫ radiance (xx, yy, zz, xy)
+  const float* aerosol;        ///< [cell][direction]: ∫ radiance · phase of aerosols
+  int directions;              ///< in a cell
+  int azimuthStride;           ///< directions of one zenith angle
 };
 
 /// What comes of it; kLanes each, for a Sun of irradiance 1.

@@ -53,7 +53,8 @@ LAMBENT_INLINE V exponential(V x) {
 void march(const MarchTables& tables, const MarchNode* nodes, int count, bool once, bool again,
            MarchSums& sums) {
   for (int lane = 0; lane < kLanes; lane += kNative) {
-    const V extAir = load(tables.extinction[0] + lane), extAerosol = load(tables.extinction[1] + lane),
+    const V extAir = load(tables.extinction[0] + lane),
+            extAerosol = load(tables.extinction[1] + lane),
             extOzone = load(tables.extinction[2] + lane);
     const V scatAir = load(tables.scattering[0] + lane),
             scatAerosol = load(tables.scattering[1] + lane);
@@ -78,8 +79,8 @@ void march(const MarchTables& tables, const MarchNode* nodes, int count, bool on
           const float* scale = tables.logScale + long(node.cell[c]) * kLanes + lane;
           const float* moment = tables.moments + long(node.cell[c]) * 4 * kLanes + lane;
           const float* directed =
-              tables.aerosol +
-              (long(node.cell[c]) * tables.directions + node.direction) * kLanes + lane;
+              tables.aerosol + (long(node.cell[c]) * tables.directions + node.direction) * kLanes +
+              lane;
           logScale += w * load(scale);
           V m = node.moment[0] * load(moment);
           m += node.moment[1] * load(moment + kLanes);

@@ -28,10 +28,12 @@ double refractiveIndexOfAir(double nm) {
 
 double rayleighCoefficient(Atmosphere::Rayleigh law, double nm) {
   switch (law) {
-    case Atmosphere::Rayleigh::Penndorf: return radiometry::penndorf15C(nm);
+    case Atmosphere::Rayleigh::Penndorf:
+      return radiometry::penndorf15C(nm);
     case Atmosphere::Rayleigh::Formula:
       return rayleighFormula(nm, refractiveIndexOfAir(nm), 2.54743e25, 0.035);
-    case Atmosphere::Rayleigh::Seed: return rayleighFormula(nm, 1.0003, 2.545e25, 0.0035);
+    case Atmosphere::Rayleigh::Seed:
+      return rayleighFormula(nm, 1.0003, 2.545e25, 0.0035);
   }
   return 0;
 }
@@ -77,9 +79,8 @@ Medium mediumOf(const Atmosphere& atmosphere, std::span<const double> wavelength
     medium.scattering[kOzone].push_back(0);
     medium.extinction[kOzone].push_back(ozone);
     medium.albedo.push_back(atmosphere.groundAlbedo.at(nm));
-    medium.solarIrradiance.push_back(atmosphere.solarIrradiance
-                                         ? atmosphere.solarIrradiance->at(nm)
-                                         : radiometry::solarIrradiance(nm));
+    medium.solarIrradiance.push_back(atmosphere.solarIrradiance ? atmosphere.solarIrradiance->at(nm)
+                                                                : radiometry::solarIrradiance(nm));
   }
   return medium;
 }

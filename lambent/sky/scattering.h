@@ -21,20 +21,23 @@ namespace lambent::sky {
 
 /// How finely light is resolved. Refined, it converges to the light of the medium.
 struct Resolution {
-  double sunDensity = 1;         ///< of the Sun's zenith angles: 1 is 5° by day, 1° in twilight
-  int altitudes = 14;            ///< ≥ 4
-  int upward = 12, downward = 8; ///< zenith angles of arriving light above and below the horizon
-  int around = 10;               ///< azimuths of it, over half a turn
+  double sunDensity = 1;          ///< of the Sun's zenith angles: 1 is 5° by day, 1° in twilight
+  int altitudes = 14;             ///< ≥ 4
+  int upward = 12, downward = 8;  ///< zenith angles of arriving light above and below the horizon
+  int around = 10;                ///< azimuths of it, over half a turn
   int zeniths = 21, azimuths = 11;  ///< directions of light that goes on, ≥ 4; over half a turn
-  int levels = 7;                ///< of altitude between which rays are split
-  int nodes = 3;                 ///< of a ray's piece
-  double depth = 1.5;            ///< most optical thickness of a piece
-  bool cubic = false;            ///< between places; directions always are
-  double tolerance = 1e-3;       ///< where a further order adds less than this everywhere it stops
-  int orders = 40;               ///< at most
+  int levels = 7;                   ///< of altitude between which rays are split
+  int nodes = 3;                    ///< of a ray's piece
+  double depth = 1.5;               ///< most optical thickness of a piece
+  bool cubic = false;               ///< between places; directions always are
+  double tolerance = 1e-3;  ///< where a further order adds less than this everywhere it stops
+  int orders = 40;          ///< at most
+  /// Zenith angles of the Sun, rad, that are looked up: a ray sees places up to 8° on, and light has
+  /// come from farther.
+  double sunFrom = 0, sunTo = 4;
 
   static Resolution fast() { return {}; }
-  /// Every step finer by half again.
+  /// Each step of `refine` is finer by half again.
   static Resolution exact(int refine = 0);
 };
 
@@ -54,6 +57,11 @@ struct AirLight {
   std::vector<double> transmittance;  ///< of the whole ray
 };
 
+/// Irradiance of the ground, for the Sun's above the air of 1.
+struct GroundLight {
+  std::vector<double> diffuse, direct;
+};
+
 class Scattering {
  public:
   /// Solves it for a medium.
@@ -63,18 +71,20 @@ class Scattering {
   const Medium& medium() const;
   /// Along a ray to the ground, the top of the air, or `end` (m).
   AirLight along(const RayInAir& ray, double end) const;
-  AirLight along(const RayInAir& ray) const { return along(ray, 1e12); }
+  AirLight along(const RayInAir& ray) const { return along(ray, kEndless); }
   /// Sum of an AirLight with the phase functions in.
   std::vector<double> radiance(const RayInAir& ray) const;
-  /// On a horizontal surface on the ground, of scattered light; W m⁻² nm⁻¹ for 1.
-  std::vector<double> diffuseIrradiance(double sunZenith) const;
-  /// From a place to the Sun's centre, by wavelength; 0 below the horizon.
+  GroundLight onGround(double sunZenith) const;
+  /// From a place to the Sun's centre, by wavelength; below the horizon that of the horizon.
   std::vector<double> sunTransmittance(double altitude, double sunZenith) const;
+  /// Zenith angle of the horizon at an altitude, rad.
+  double horizonZenith(double altitude) const;
   /// How many orders were added up.
   int orders() const;
 
- private:
   struct Impl;
+
+ private:
   explicit Scattering(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
 };

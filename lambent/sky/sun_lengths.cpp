@@ -16,7 +16,7 @@ constexpr int kLengthAltitudes = 80, kLengthAngles = 112;
 }
 
 double SunLengths::horizonAngle(double altitude) const {
-  return kPi / 2 + std::atan2(std::sqrt(altitude * (2 * shell_.radius + altitude)), shell_.radius);
+  return std::acos(shell_.horizonCosine(altitude));
 }
 
 SunLengths::SunLengths(const Medium& medium)
@@ -28,8 +28,8 @@ SunLengths::SunLengths(const Medium& medium)
       const double q = double(j) / (kLengthAngles - 1);
       const double cosine = std::cos(horizon * (1 - q * q));
       for (int part = 0; part < kParts; ++part)
-        logLengths_[(std::size_t(i) * kLengthAngles + j) * 4 + part] = float(std::log1p(
-            media::opticalLengthToTop(shell_, medium.profiles[part], altitude, cosine)));
+        logLengths_[(std::size_t(i) * kLengthAngles + j) * 4 + part] = float(
+            std::log1p(media::opticalLengthToTop(shell_, medium.profiles[part], altitude, cosine)));
     }
   });
 }
@@ -50,8 +50,7 @@ void SunLengths::at(double altitude, double zenithAngle, float (&lengths)[kParts
       for (int part = 0; part < 4; ++part) sum[part] += w * row[4 * j + part];
     }
   }
-  for (int part = 0; part < kParts; ++part)
-    lengths[part] = std::max(0.0f, std::expm1(sum[part]));
+  for (int part = 0; part < kParts; ++part) lengths[part] = std::max(0.0f, std::expm1(sum[part]));
 }
 
 }  // namespace lambent::sky
