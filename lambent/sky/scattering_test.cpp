@@ -7,17 +7,18 @@
 #include <cstdio>
 
 #include "lambent/math/types.h"
+#include "lambent/sky/test_angles.h"
 
 namespace lambent::sky {
 namespace {
 
-constexpr double kDegree = kPi / 180;
+using test::kDegree;
 
-struct Row {
+struct PublishedRow {
   double sun, view, azimuth;
   double radiance[4];
 };
-const Row kRows[] = {{60, 0, 0, {0.035825, 0.017673, 0.0085881, 0.0062806}},
+const PublishedRow kPublished[] = {{60, 0, 0, {0.035825, 0.017673, 0.0085881, 0.0062806}},
                      {60, 30, 0, {0.073335, 0.047008, 0.029601, 0.022941}},
                      {60, 30, 180, {0.033419, 0.015335, 0.0067103, 0.0048445}},
                      {60, 60, 0, {0.33826, 0.29751, 0.22687, 0.1853}},
@@ -36,7 +37,7 @@ const Row kRows[] = {{60, 0, 0, {0.035825, 0.017673, 0.0085881, 0.0062806}},
                      {94, 80, 90, {0.00057846, 0.00075058, 0.00065378, 0.00052858}},
                      {94, 80, 180, {0.000273, 0.000255, 0.000203, 0.000168}}};
 
-RayInAir rayOf(const Row& row, double altitude = 0) {
+RayInAir rayOf(const PublishedRow& row, double altitude = 0) {
   const double sun = row.sun * kDegree, view = row.view * kDegree;
   return {altitude, std::cos(view), sun,
           std::cos(view) * std::cos(sun) +
@@ -51,7 +52,7 @@ void report(const Resolution& resolution) {
               std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(),
               solved->orders());
   double sum[2] = {};
-  for (const Row& row : kRows) {
+  for (const PublishedRow& row : kPublished) {
     const std::vector<double> ours = solved->radiance(rayOf(row));
     std::printf("%3.0f %3.0f %3.0f ", row.sun, row.view, row.azimuth);
     for (int i = 0; i < 4; ++i) {
