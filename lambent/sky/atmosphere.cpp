@@ -82,8 +82,4 @@ std::optional<Atmosphere> preset(std::string_view name) {
   return std::nullopt;
 }
 
-std::string toJson(const Atmosphere& a) {
-  return a.name + (a.turbidity ? std::to_string(*a.turbidity) : "");
-}  // TEMPORARY
-
 }  // namespace lambent::sky
