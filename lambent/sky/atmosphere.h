@@ -29,9 +29,9 @@ struct Spectral {
 struct Atmosphere {
   /// How molecules scatter.
   enum class Rayleigh {
-    Penndorf,  ///< penndorf1957: 15 °C, 1013 hPa
-    Formula,   ///< preetham2003 with its numbers put right: n(λ) by edlen, p = .035
-    Seed,      ///< preetham2003 to the letter: n = 1.0003, p = .0035
+    Penndorf,  ///< penndorf1957tables: 15 °C, 1013 hPa
+    Formula,   ///< preetham2003modeling with its numbers put right: n(λ) by edlen, p = .035
+    Seed,      ///< preetham2003modeling to the letter: n = 1.0003, p = .0035
   };
   /// How thick the aerosols are.
   struct Angstrom {
@@ -58,8 +58,8 @@ struct Atmosphere {
   media::DensityProfile aerosolProfile = media::DensityProfile::exponential(1200);
 
   double ozone = 300;  ///< column, Dobson units
-  media::DensityProfile ozoneProfile = media::DensityProfile::tabulated(
-      {{0, 0}, {10e3, 0}, {25e3, 1}, {40e3, 0}, {60e3, 0}});
+  media::DensityProfile ozoneProfile =
+      media::DensityProfile::tabulated({{0, 0}, {10e3, 0}, {25e3, 1}, {40e3, 0}, {60e3, 0}});
 
   Spectral groundAlbedo = Spectral::constant(0.1);
   /// W m⁻² nm⁻¹ above the air at 1 AU; nothing: ASTM G173, means over 10 nm.
@@ -69,7 +69,7 @@ struct Atmosphere {
   std::optional<double> turbidity;
 };
 
-/// preetham1999, appendix 1: aerosols with Ångström exponent 1.3 and thickness .04608 T − .04586 at
+/// preetham1999practical, appendix 1: aerosols with Ångström exponent 1.3 and thickness .04608 T − .04586 at
 /// 1 µm. 1 ≤ turbidity ≤ 10 (1: no aerosols).
 Atmosphere withTurbidity(Atmosphere atmosphere, double turbidity);
 

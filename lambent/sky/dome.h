@@ -27,9 +27,9 @@ class Dome {
 
 /// The Sun as its own component of a sky.
 struct SunDisc {
-  double elevation = 0;        ///< of its centre as it is seen, rad
-  double angularRadius = 0;    ///< rad, some 0.00465
-  double visible = 1;          ///< how much of the disc stands above the horizon, 0 … 1
+  double elevation = 0;      ///< of its centre as it is seen, rad
+  double angularRadius = 0;  ///< rad, some 0.00465
+  double visible = 1;        ///< how much of the disc stands above the horizon, 0 … 1
   /// On a surface that faces it, through the air, of the part that is visible. X, Y, Z in lx.
   radiometry::Xyzv irradiance = radiometry::Xyzv::Zero();
   std::vector<double> spectralIrradiance;  ///< W m⁻² nm⁻¹ at Sky::wavelengths
@@ -40,7 +40,7 @@ struct Sky {
   std::shared_ptr<const Dome> dome;
   SunDisc sun;
   double horizon = 0;  ///< elevation of the horizon, rad: 0 on the ground, below it higher up
-  std::vector<double> wavelengths;     ///< nm
+  std::vector<double> wavelengths;  ///< nm
   std::vector<double> groundRadiance;  ///< W m⁻² sr⁻¹ nm⁻¹ that leaves the ground below the viewer
   radiometry::Xyzv ground = radiometry::Xyzv::Zero();  ///< the same, cd m⁻²
   double altitude = 0;                                 ///< of the viewer, m

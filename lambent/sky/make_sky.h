@@ -21,10 +21,11 @@ struct SkyOptions {
   int cieType = 12;  ///< of CieGeneral, 1 … 15 (ISO 15469:2004)
   /// What the air is made of, for Exact and Fast; the others take its turbidity, if it says one.
   Atmosphere atmosphere;
-  double sunElevation = 0;           ///< of the disc's centre as it is seen, rad, −18° … 90°
-  double sunDistance = 1;            ///< astronomical units
-  double altitude = 0;               ///< of the viewer above the ground, m
-  std::vector<double> wavelengths;   ///< nm, 340 … 740, at which spectra will be asked for; empty: every 10 nm
+  double sunElevation = 0;  ///< of the disc's centre as it is seen, rad, −18° … 90°
+  double sunDistance = 1;   ///< astronomical units
+  double altitude = 0;      ///< of the viewer above the ground, m
+  std::vector<double>
+      wavelengths;  ///< nm, 340 … 740, at which spectra will be asked for; empty: every 10 nm
   /// Of Perez and AsrcCie, W m⁻²; nothing: what the clear sky of this turbidity gives.
   std::optional<double> directNormalIrradiance, diffuseHorizontalIrradiance;
   /// Where tables are kept between runs (see cacheFolder()); empty: nowhere.

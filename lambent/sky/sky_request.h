@@ -34,7 +34,8 @@ struct RequestKey {
   std::string_view syntax;  ///< "HOURS"
   std::string_view help;    ///< a line for a person
   std::string_view group;   ///< "Moment", "Sun", "Air", "Model"
-  Status (*set)(SkyRequest&, std::string_view value);  ///< BadUsage says what is wrong and the range
+  Status (*set)(SkyRequest&,
+                std::string_view value);  ///< BadUsage says what is wrong and the range
 };
 std::span<const RequestKey> requestKeys();
 
