@@ -173,7 +173,7 @@ TEST(SkyPicture, PixelsAreWhatStandsInTheirDirection) {
 
 TEST(SkyPicture, TheSunIsWhereItIs) {
   // In the south-east, in the fisheye left of the middle and below it.
-  const double elevation = 0.6, bearing = 0.76 * kPi;
+  const double elevation = 0.6, bearing = 0.763 * kPi;
   const Sky sky = skyWith(std::make_shared<Night>(), elevation);
   SkyPictureOptions options;
   options.worldFromSun = worldFromSun(bearing);
@@ -191,7 +191,7 @@ TEST(SkyPicture, TheSunIsWhereItIs) {
                                          int(100 - 100 * r * std::cos(bearing))));
   options.shape = {PictureMap::LatLong, 200, 100};
   EXPECT_EQ(brightest(),
-            Eigen::Vector2i(int(200 * (0.25 + 0.76 / 2)), int(100 * (0.5 - elevation / kPi))));
+            Eigen::Vector2i(int(200 * (0.25 + 0.763 / 2)), int(100 * (0.5 - elevation / kPi))));
 }
 
 TEST(SkyPicture, TheSunsEnergyIsRightAtAnyResolution) {
