@@ -151,4 +151,13 @@ void SunCoverage::shares(std::span<const Vec3d> outline, std::span<double> share
     shares[i] = std::max(std::abs(shares[i] / whole_[i]) - 1e-13, 0.0);
 }
 
+void SunCoverage::densities(const Vec3d& direction, std::span<double> densities) const {
+  const Point at = inPlane(direction);
+  const double mu2 = 1 - at.squaredNorm();
+  const bool seen = visible_ && mu2 > 0 && at.y() >= horizon_ && direction.dot(centre_) > 0;
+  const double radius = 2 * std::sin(angularRadius_ / 2);
+  for (std::size_t i = 0; i < densities.size(); ++i)
+    densities[i] = seen ? std::pow(mu2, exponents_[i] / 2) / (whole_[i] * radius * radius) : 0.0;
+}
+
 }  // namespace lambent::sky

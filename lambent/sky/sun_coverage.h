@@ -32,6 +32,8 @@ class SunCoverage {
   /// the Sun's frame, for each exponent, into as many. The outline is a polygon in a projection that
   /// keeps areas, within a right angle of the Sun.
   void shares(std::span<const Vec3d> outline, std::span<double> shares) const;
+  /// The same in a direction, per sr: 0 outside of what is visible of the disc.
+  void densities(const Vec3d& direction, std::span<double> densities) const;
 
  private:
   using Point = Eigen::Vector2d;

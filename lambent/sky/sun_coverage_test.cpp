@@ -125,5 +125,26 @@ TEST(SunCoverage, TheHorizonCutsTheDisc) {
   EXPECT_FALSE(SunCoverage(gone, 0, {0}).isVisible());
 }
 
+TEST(SunCoverage, DensityIsTheShareOfASmallPatch) {
+  for (const double elevation : {0.7, kRadius / 3}) {
+    const SunCoverage coverage(discAt(elevation), 0, {0, 0.6});
+    const Around around(elevation);
+    const double side = 1e-3, angle = std::pow(side * 2 * std::sin(kRadius / 2), 2);
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.5, 0.3}, {-0.2, 0.9}}) {
+      std::vector<double> densities(2);
+      coverage.densities(around(x, y), densities);
+      const auto patch =
+          sharesOf(coverage, around.box(x - side / 2, y - side / 2, x + side / 2, y + side / 2), 2);
+      for (size_t i = 0; i < 2; ++i) EXPECT_NEAR(densities[i] * angle / patch[i], 1, 1e-4);
+    }
+    std::vector<double> densities(2, 1.0);
+    coverage.densities(around(0.8, 0.61), densities);
+    EXPECT_EQ(densities[1], 0);
+  }
+  std::vector<double> densities(1, 1.0);
+  SunCoverage(discAt(kRadius / 3), 0, {0}).densities(Around(kRadius / 3)(0, -0.5), densities);
+  EXPECT_EQ(densities[0], 0);
+}
+
 }  // namespace
 }  // namespace lambent::sky
