@@ -76,7 +76,7 @@ Status checkUse(const SkyVerb& verb) {
   if (verb.extension() != ".exr" && !colour && verb.map.quantity != sky::Quantity::Luminance)
     return badUsage(fmt::format("--quantity {}: a {} has colours alone; write an .exr",
                                 nameOf(verb.map.quantity), verb.extension()));
-  if (verb.given("--exposure") && !colour)
+  if (verb.given("--exposure") && !colour && verb.extension() != ".png")
     return badUsage(fmt::format("--exposure would take --quantity {} out of its unit",
                                 nameOf(verb.map.quantity)));
   return Status::ok();

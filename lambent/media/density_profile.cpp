@@ -106,6 +106,10 @@ std::vector<double> DensityProfile::breaks() const {
   return altitudes;
 }
 
+std::vector<double> DensityProfile::kinks() const {
+  return std::holds_alternative<Tabulated>(law_) ? breaks() : std::vector<double>();
+}
+
 double DensityProfile::column(double top) const {
   std::vector<double> ends = breaks();
   std::erase_if(ends, [top](double altitude) { return altitude >= top; });

@@ -38,6 +38,8 @@ class DensityProfile {
   double at(double altitude) const;
   /// The altitudes, m, between which it is smooth, rising; without 0 and the top.
   std::vector<double> breaks() const;
+  /// Those of them where it truly bends or steps.
+  std::vector<double> kinks() const;
   /// ∫ of it from altitude 0 up to `top`, m.
   double column(double top) const;
 

@@ -29,4 +29,14 @@ export { fitClipping, frameAutomatically, subpixelPositions } from "./output/cam
 export { bandOf, coefficientCount, evaluateHarmonics, kMaxBands } from "./sh/basis.js";
 export { HarmonicRotation, matrixOfQuaternion } from "./sh/rotation.js";
 export { capMoments, clampedCosineMoments, phongLobeMoments, turnZonal } from "./sh/zonal.js";
+export {
+  polynomialDeltaT,
+  refraction,
+  sunAngularRadius,
+  sunIrradianceScale,
+  sunPosition,
+  worldDirection,
+  type Air,
+  type SunPosition,
+} from "./sky/sun_position.js";
 export { hannWindow, lanczosWindow, minimalRingingWindow } from "./sh/window.js";

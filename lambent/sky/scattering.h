@@ -1,0 +1,92 @@
+// Light in an atmosphere, all orders of scattering: solved once for every place of the Sun, then
+// looked up along any ray.
+//
+// What is solved for is the light that arrives at a place, already weighed by the phase functions:
+// how much of it goes on into each direction. It changes smoothly with altitude and with the Sun's
+// zenith angle there, while density, shadow and extinction, which do not, are left to the rays.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lambent/report/progress.h"
+#include "lambent/report/result.h"
+#include "lambent/sky/air_path.h"
+#include "lambent/sky/march.h"
+#include "lambent/sky/medium.h"
+#include "lambent/sky/sun_lengths.h"
+
+namespace lambent::sky {
+
+/// How finely light is resolved. Refined, it converges to the light of the medium.
+struct Resolution {
+  double sunDensity = 1;          ///< of the Sun's zenith angles: 1 is 5° by day, 1° in twilight
+  int altitudes = 14;             ///< ≥ 4
+  int upward = 12, downward = 8;  ///< zenith angles of arriving light above and below the horizon
+  int around = 10;                ///< azimuths of it, over half a turn
+  int zeniths = 21, azimuths = 11;  ///< directions of light that goes on, ≥ 4; over half a turn
+  int levels = 7;                   ///< of altitude between which rays are split
+  int nodes = 3;                    ///< of a ray's piece
+  double depth = 1.5;               ///< most optical thickness of a piece
+  bool cubic = false;               ///< between places; directions always are
+  double tolerance = 1e-3;  ///< where a further order adds less than this everywhere it stops
+  int orders = 40;          ///< at most
+  /// Zenith angles of the Sun, rad, that are looked up: a ray sees places up to 8° on, and light has
+  /// come from farther.
+  double sunFrom = 0, sunTo = 4;
+
+  static Resolution fast() { return {}; }
+  /// Each step of `refine` is finer by half again.
+  static Resolution exact(int refine = 0);
+};
+
+/// Where a ray begins and how it lies to the Sun.
+struct RayInAir {
+  double altitude = 0;    ///< m, within the air
+  double cosine = 1;      ///< of its zenith angle
+  double sunZenith = 0;   ///< rad, at the origin
+  double towardsSun = 1;  ///< cosine of the angle between the ray and the Sun
+};
+
+/// Radiance that arrives from a ray, by wavelength, for the Sun's irradiance above the air of 1.
+struct AirLight {
+  std::vector<double> air, aerosol;   ///< scattered once, without the phase functions
+  std::vector<double> multiple;       ///< scattered more often
+  std::vector<double> ground;         ///< from the ground at its end, through the air
+  std::vector<double> transmittance;  ///< of the whole ray
+};
+
+/// Irradiance of the ground, for the Sun's above the air of 1.
+struct GroundLight {
+  std::vector<double> diffuse, direct;
+};
+
+class Scattering {
+ public:
+  /// Solves it for a medium.
+  static Result<Scattering> solve(Medium medium, const Resolution& resolution,
+                                  const Progress& progress = {});
+
+  const Medium& medium() const;
+  /// Along a ray to the ground, the top of the air, or `end` (m).
+  AirLight along(const RayInAir& ray, double end) const;
+  AirLight along(const RayInAir& ray) const { return along(ray, kEndless); }
+  /// Sum of an AirLight with the phase functions in.
+  std::vector<double> radiance(const RayInAir& ray) const;
+  GroundLight onGround(double sunZenith) const;
+  /// From a place to the Sun's centre, by wavelength; below the horizon that of the horizon.
+  std::vector<double> sunTransmittance(double altitude, double sunZenith) const;
+  /// Zenith angle of the horizon at an altitude, rad.
+  double horizonZenith(double altitude) const;
+  /// How many orders were added up.
+  int orders() const;
+
+  struct Impl;
+
+ private:
+  explicit Scattering(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace lambent::sky

@@ -1,0 +1,86 @@
+// What Scattering is made of, shared by the files that solve it and look it up. Internal to the room.
+#pragma once
+
+#include <vector>
+
+#include "lambent/sky/scattering.h"
+
+namespace lambent::sky {
+
+/// The kernels of this machine.
+MarchKernels marchKernels();
+
+/// The nodes of the tables: *cells*, pairs of the Sun's zenith angle and an altitude, with
+/// directions in each.
+struct Grid {
+  double height = 0;   ///< of the top of the air, m
+  double density = 1;  ///< of the Sun's zenith angles, see Resolution
+  double first = 0;    ///< coordinate of the first of them
+  int suns = 0, altitudes = 0, zeniths = 0, azimuths = 0;
+
+  /// 5° between nodes by day and 1° in twilight, with a smooth change about 78°.
+  double sunCoordinate(double zenith) const;
+  double sunZenith(int node) const;
+  double altitude(int node) const;
+  double altitudeCoordinate(double altitude) const;
+
+  int cells() const { return suns * altitudes; }
+  int cell(int sun, int altitude) const { return sun * altitudes + altitude; }
+  // Directions have a border of one on each side, so that four neighbours lie side by side.
+  int azimuthStride() const { return azimuths + 2; }
+  int directions() const { return (zeniths + 2) * azimuthStride(); }
+};
+
+/// What every cell holds, for kLanes wavelengths (see MarchTables).
+struct Held {
+  std::vector<float> logScale, moments, aerosol;
+  explicit Held(const Grid& grid);
+};
+
+/// kLanes wavelengths of a medium, and the light in it.
+struct Block {
+  float extinction[3][kLanes] = {}, scattering[2][kLanes] = {};
+  float albedo[kLanes] = {};
+  Held held;
+  std::vector<float> logGround;  ///< log of the ground's diffuse irradiance, [sun][lane]
+
+  explicit Block(const Grid& grid);
+  MarchTables tables(const Held& with, const Grid& grid) const;
+  /// e^(−τ) of optical lengths.
+  void transmit(const float (&lengths)[kParts], float (&out)[kLanes]) const;
+};
+
+/// Smaller than any radiance that is told apart from none; its logarithm is finite.
+inline constexpr float kNothing = 1e-34f;
+
+struct Scattering::Impl {
+  Medium medium;
+  Resolution resolution;
+  Grid grid;
+  SunLengths sunLengths;
+  PathSplit split;
+  std::vector<Block> blocks;
+  int orders = 1;
+
+  enum class Shadow {
+    Sharp,  ///< of a point: paths are split at its edge
+    Soft,   ///< of the Sun's disc, for paths that are not
+  };
+  /// Nodes of a path for the kernel: what it needs to scatter light once (from the Sun), and again
+  /// (what the tables hold).
+  void prepareOnce(const AirPath& path, const RayInAir& ray, Shadow shadow,
+                   std::vector<MarchNode>& nodes) const;
+  void prepareAgain(const AirPath& path, const RayInAir& ray, std::vector<MarchNode>& nodes) const;
+
+  /// The Sun's zenith angle at the end of a path.
+  double sunZenithAtEnd(const AirPath& path, const RayInAir& ray) const;
+  /// The Sun's irradiance on the ground, for 1 above the air.
+  void direct(const Block& block, double sunZenith, float (&out)[kLanes]) const;
+  /// What a table of logarithms, [sun][lane], has for a place of the Sun.
+  void fromLogs(const std::vector<float>& logs, double sunZenith, float (&out)[kLanes]) const;
+
+  /// Fills the blocks (successive_orders.cpp).
+  Status addOrders(const Progress& progress);
+};
+
+}  // namespace lambent::sky
