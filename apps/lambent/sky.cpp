@@ -102,35 +102,34 @@ struct Suns {
   std::vector<std::string> times;
 };
 
+/// Of a sequence, moments of night are left out. Its requests differ in their moment alone: what is
+/// refused of some and not of others is their Sun.
 Result<Suns> sunsOf(const SkyVerb& verb, const std::vector<sky::SkyRequest>& moments,
                     Console& console) {
   Suns suns;
-  std::optional<Error> night;
-  std::string firstNight;
-  std::uint64_t nights = 0;
+  std::optional<Error> refused;
+  std::string when;
   for (const sky::SkyRequest& moment : moments) {
     auto resolved = sky::resolve(moment);
     if (!resolved) {
-      // What is wrong with all of them is wrong with the first.
-      if (!verb.sequence.span || resolved.error().kind != ErrorKind::BadUsage ||
-          resolved.error().message.find("night") == std::string::npos)
+      if (!verb.sequence.span || resolved.error().kind != ErrorKind::BadUsage)
         return resolved.error();
-      if (!night) firstNight = *moment.time;
-      night = resolved.error();
-      ++nights;
+      if (!refused) when = *moment.time;
+      if (!refused) refused = resolved.error();
       continue;
     }
     if (suns.resolved.empty()) console.report(resolved->findings);
     suns.resolved.push_back(std::move(resolved->value));
     suns.times.push_back(verb.sequence.span ? *moment.date + " " + *moment.time : "");
   }
-  if (suns.resolved.empty()) return *night;
-  if (night)
+  if (suns.resolved.empty()) return *refused;
+  const std::uint64_t left = moments.size() - suns.resolved.size();
+  if (left > 0)
     console.report({{Severity::Warning, "sky-night-left-out",
-                     fmt::format("{} of {} moments are night (Sun below -18°) and were left out, "
-                                 "the first of them {}; what is numbered is the others",
-                                 nights, moments.size(), firstNight),
-                     nights}});
+                     fmt::format("{} of {} moments are left out, and the others are numbered. The "
+                                 "first of them is {}: {}",
+                                 left, moments.size(), when, refused->message),
+                     left}});
   return suns;
 }
 
