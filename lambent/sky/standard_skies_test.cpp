@@ -56,7 +56,7 @@ TEST(StandardSkies, EveryRowOfTheTable) {
 
 TEST(StandardSkies, LevelIsThatOfThePublishedZenithLuminance) {
   // darula2002cie: type, D_v / E_v, and L_z = D_v / E_v (B sin^C h / cos^D h + E sin h) kcd/m².
-  constexpr double kPublished[][6] = {
+  constexpr double kRowsOfTable[][6] = {
       {1, .10, 54.63, 1.00, 0, 0},        {2, .18, 12.35, 3.68, .59, 50.47},
       {3, .15, 48.30, 1.00, 0, 0},        {4, .22, 12.23, 3.57, .57, 44.27},
       {5, .20, 42.59, 1.00, 0, 0},        {6, .38, 11.84, 3.53, .55, 38.78},
@@ -66,7 +66,7 @@ TEST(StandardSkies, LevelIsThatOfThePublishedZenithLuminance) {
       {13, .28, 27.45, 4.61, .76, 16.59}, {14, .28, 25.54, 4.40, .79, 14.56},
       {15, .30, 28.08, 4.13, .79, 13.00},
   };
-  for (const auto& [type, ratio, b, c, d, e] : kPublished) {
+  for (const auto& [type, ratio, b, c, d, e] : kRowsOfTable) {
     EXPECT_DOUBLE_EQ(standardSkyShape(int(type)).diffuseRatio, ratio);
     for (const double elevation : {20., 35., 50., 60.}) {
       const double h = elevation * kDegree;
