@@ -209,16 +209,18 @@ Result<Plan> planOf(const SkyVerb& verb, const Suns& suns) {
   return plan;
 }
 
-Result<SkyMoment> runMoment(const SkyVerb& verb, Plan& plan, sky::ResolvedSky resolved,
-                            const fs::path& path, Console& console) {
+Result<SkyMoment> runMoment(const SkyVerb& verb, Plan& plan, sky::SkyMaker& maker,
+                            sky::ResolvedSky resolved, const fs::path& path, Console& console) {
   resolved.options.wavelengths = wavelengthsOf(verb.at.wavelengths);
   resolved.options.cache = sky::cacheFolder();
-  const auto made = sky::makeSky(resolved.options, console.progress());
+  const auto made = maker.make(resolved.options, console.progress());
   if (!made) return made.error();
   console.report(made->findings);
   const sky::Sky& sky = made->value;
   SkyMoment moment;
-  moment.brightness = sky::brightnessOf(sky);
+  // A sum over the dome, which an exact one takes its time for: where it is told.
+  if (console.options().json || (!verb.at.given() && !verb.sequence.span))
+    moment.brightness = console.stage("brightness", [&] { return sky::brightnessOf(sky); });
   plan.picture.below = plan.reading.below = sky::belowHorizonOf(resolved.options.model);
   moment.readings = sky::readSky(sky, plan.directions, plan.reading);
   if (!path.empty()) {
@@ -261,13 +263,14 @@ Status runSky(SkyVerb& verb, Console& console) {
   auto plan = planOf(verb, *suns);
   if (!plan) return plan.error();
 
+  sky::SkyMaker maker;  // its tables serve all moments
   std::vector<SkyMoment> made;
   Json json = Json::array();
   for (std::size_t i = 0; i < plan->frames; ++i) {
     fs::path path;
     if (verb.drawsPicture())
       path = verb.sequence.span ? framePath(verb.output, i + 1, moments->size()) : verb.output;
-    auto moment = runMoment(verb, *plan, suns->resolved[i], path, console);
+    auto moment = runMoment(verb, *plan, maker, suns->resolved[i], path, console);
     if (!moment) return moment.error();
     moment->time = suns->times[i];
     json.push_back(jsonOf(plan->table, *moment));

@@ -78,6 +78,8 @@ Json jsonOf(const SkyTable& table, const SkyMoment& moment) {
   json["sun"] = {{"azimuth", bearingOf(moment)},
                  {"elevation", elevationOf(moment)},
                  {"distance_au", moment.resolved.options.sunDistance}};
+  if (moment.resolved.trueElevation)
+    json["sun"]["true_elevation"] = *moment.resolved.trueElevation / kDegree;
   json["irradiance"] = asJson(moment.brightness.irradiance);
   json["illuminance"] = asJson(moment.brightness.illuminance);
   json["zenith"] = {{"luminance", moment.brightness.zenithLuminance},
