@@ -17,30 +17,14 @@
 #include "lambent/sky/dome_quadrature.h"
 #include "lambent/sky/preetham.h"
 #include "lambent/sky/standard_skies.h"
+#include "lambent/sky/sun_above.h"
 #include "lambent/sky/twilight.h"
 
 namespace lambent::sky {
 namespace {
 
-constexpr double kSunRadius = .0046524;  // rad, at 1 AU: 959.63″
-
-/// How much of a disc stands above a straight horizon, 0 … 1, its centre `height` radii above.
-double shareOfDisc(double height) {
-  const double h = std::clamp(height, -1.0, 1.0);
-  return 1 - (std::acos(h) - h * std::sqrt(1 - h * h)) / kPi;
-}
-
-std::vector<double> wavelengthsOf(const SkyOptions& options) {
-  if (!options.wavelengths.empty()) return options.wavelengths;
-  std::vector<double> nm;
-  for (double at = 340; at <= 740; at += 10) nm.push_back(at);
-  return nm;
-}
-
 double irradianceOfSun(const SkyOptions& options, double nm) {
-  const std::optional<Spectral>& own = options.atmosphere.solarIrradiance;
-  const double atOneUnit = own ? own->at(nm) : radiometry::solarIrradiance(nm);
-  return atOneUnit *
+  return solarIrradianceOf(options.atmosphere, nm) *
          preethamSunTransmittance({.turbidity = turbidityOf(options.atmosphere),
                                    .ozone = options.atmosphere.ozone / 1000},
                                   options.sunElevation, nm) /
@@ -97,7 +81,7 @@ SunDisc makeSunDisc(const SkyOptions& options, const DomeAndSun& of,
   SunDisc sun;
   sun.elevation = options.sunElevation;
   sun.angularRadius = kSunRadius / options.sunDistance;
-  sun.visible = shareOfDisc(options.sunElevation / sun.angularRadius);
+  sun.visible = discAbove(options.sunElevation / sun.angularRadius);
   sun.spectralIrradiance.assign(wavelengths.size(), 0.0);
   if (!of.shines || sun.visible <= 0) return sun;
 
@@ -175,7 +159,7 @@ Sky analyticSky(const SkyOptions& options) {
   const DomeAndSun of = makeDomeAndSun(options);
   Sky sky;
   sky.dome = of.dome;
-  sky.wavelengths = wavelengthsOf(options);
+  sky.wavelengths = spectrumWavelengths(options);
   sky.sun = makeSunDisc(options, of, sky.wavelengths);
   sky.altitude = std::max(options.altitude, 0.0);
   const double radius = options.atmosphere.planetRadius;

@@ -68,6 +68,8 @@ struct Atmosphere {
 
   /// The turbidity that made the aerosols, if one did (see withTurbidity).
   std::optional<double> turbidity;
+
+  bool operator==(const Atmosphere&) const = default;
 };
 
 /// W m⁻² nm⁻¹ above the air at 1 AU, at a wavelength in nm.

@@ -42,8 +42,9 @@ MarchKernels marchKernels() {
 }
 
 double Grid::sunCoordinate(double zenith) const {
-  const double degrees = zenith / kPerDegree;
-  return density * (degrees / 5 + 0.8 * 6 * std::log1p(std::exp((degrees - 78) / 6))) - first;
+  const double degrees = zenith / kPerDegree, past = degrees - 78;
+  const double more = (twilight - 0.2) / 2;
+  return density * (degrees / 5 + more * (past + std::sqrt(past * past + 64))) - first;
 }
 
 double Grid::sunZenith(int node) const {

@@ -105,7 +105,7 @@ Status setAltitude(SkyRequest& request, std::string_view text) {
 
 Status setRefine(SkyRequest& request, std::string_view text) {
   double steps = 0;
-  if (const Status status = setNumber(steps, text, {0, 4, ""}); !status) return status;
+  if (const Status status = setNumber(steps, text, {0, 3, ""}); !status) return status;
   if (steps != std::trunc(steps)) return badUsage(fmt::format("'{}' is no whole number", text));
   request.refine = int(steps);
   return Status::ok();
@@ -172,13 +172,13 @@ constexpr RequestKey kKeys[] = {
      }},
     {"direct-normal", "W/M2", "Direct irradiance, of perez and asrc-cie", "Model",
      [](SkyRequest& r, std::string_view v) {
-       return setNumber(r.directNormal, v, {0, 1500, " W/m²"});
+       return setNumber(r.directNormal, v, {0, 2000, " W/m²"});
      }},
     {"diffuse-horizontal", "W/M2", "Diffuse irradiance, of perez and asrc-cie", "Model",
      [](SkyRequest& r, std::string_view v) {
-       return setNumber(r.diffuseHorizontal, v, {0, 1500, " W/m²"});
+       return setNumber(r.diffuseHorizontal, v, {0, 2000, " W/m²"});
      }},
-    {"refine", "STEPS", "Makes the discretisation of exact finer, 0 to 4 (default: 0)", "Model",
+    {"refine", "STEPS", "Makes the discretisation of exact finer, 0 to 3 (default: 0)", "Model",
      setRefine},
 };
 

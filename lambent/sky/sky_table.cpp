@@ -12,7 +12,8 @@
 #include <cstring>
 #include <mutex>
 
-#include "lambent/math/directions.h"
+#include <fmt/format.h>
+
 #include "lambent/math/types.h"
 #include "lambent/sky/interpolation.h"
 #include "lambent/sky/scattering_tables.h"
@@ -27,6 +28,7 @@ namespace {
 constexpr int kHeld = 2;  // what a direction holds: all else, and what aerosols scattered once
 constexpr int kBands = 10, kHarmonics = kBands * kBands;
 constexpr int kRefined = 4;
+constexpr double kTwilightSuns = 1.6;  // to a degree
 // Light that aerosols scattered once is left out of the sum where it is this much fainter.
 constexpr float kFaint = -11.5f;
 
@@ -40,6 +42,7 @@ struct SkyTable::Impl {
   ViewGrid view;
   ColorUnderSun color;
   SunLengths lengths;
+  // Along the Sun's axis all are coefficients of splines.
   /// [sun][view row][azimuth][part][lane], logarithms.
   std::vector<float> radiance;
   std::vector<float> groundDiffuse;  ///< [sun][lane], logarithms
@@ -47,9 +50,16 @@ struct SkyTable::Impl {
   /// Empty until the rest is there.
   std::vector<float> harmonics, logScale;
 
+  /// What is kept on disk.
+  std::array<std::vector<float>*, 4> stored() {
+    return {&radiance, &groundDiffuse, &harmonics, &logScale};
+  }
+  std::array<const std::vector<float>*, 4> stored() const {
+    return {&radiance, &groundDiffuse, &harmonics, &logScale};
+  }
   std::size_t perSun() const { return std::size_t(view.nodes()) * kHeld * kLanes; }
   Taps sunTaps(double elevation) const {
-    return cubicTaps(suns.sunCoordinate(kPi / 2 - std::max(elevation, kLowestSun)), suns.suns);
+    return splineTaps(suns.sunCoordinate(kPi / 2 - std::max(elevation, kLowestSun)), suns.suns);
   }
 };
 
@@ -71,8 +81,7 @@ class TableDome final : public Dome {
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         const float w = float((i ? rowPart : 1 - rowPart) * (j ? columnPart : 1 - columnPart));
-        const float* at =
-            &map.values[(std::size_t(row + i) * map.grid.azimuths + column + j) * 8];
+        const float* at = &map.values[(std::size_t(row + i) * map.grid.azimuths + column + j) * 8];
         for (int c = 0; c < 8; ++c) sum[c] += w * at[c];
       }
     const double phase = media::evaluate(table_->medium.aerosolPhase, direction.dot(sun_));
@@ -93,9 +102,9 @@ class TableDome final : public Dome {
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const float w = float(rows.weight[i] * columns.weight[j]);
-        const float* at = &logs[(std::size_t(offset + rows.first + i) * grid.azimuths +
-                                 columns.first + j) *
-                                kHeld * kLanes];
+        const float* at =
+            &logs[(std::size_t(offset + rows.first + i) * grid.azimuths + columns.first + j) *
+                  kHeld * kLanes];
         for (int l = 0; l < kHeld * kLanes; ++l) sum[l] += w * at[l];
       }
     const double phase = media::evaluate(table_->medium.aerosolPhase, direction.dot(sun_));
@@ -230,6 +239,7 @@ std::shared_ptr<SkyTable::Impl> emptyTable(const Atmosphere& atmosphere, double 
   impl->altitude = altitude;
   impl->atmosphere = atmosphere;
   impl->medium = mediumOf(atmosphere, SkyTable::wavelengths());
+  impl->suns.twilight = kTwilightSuns;
   impl->suns.first = impl->suns.sunCoordinate(0);
   impl->suns.suns = 1 + int(std::ceil(impl->suns.sunCoordinate(kPi / 2 - kLowestSun)));
   impl->view.horizon = std::asin(impl->medium.shell.horizonCosine(altitude));
@@ -278,7 +288,9 @@ Result<SkyTable> SkyTable::make(const Atmosphere& atmosphere, double altitude,
           t.groundDiffuse[sun * kLanes + l] = safeLog(ground.diffuse[l]);
       });
   if (!ran) return ran.error();
-  // Coefficients of the finished slices; a slice at a node is the node.
+  makeSplines(t.radiance, std::size_t(t.suns.suns));
+  makeSplines(t.groundDiffuse, std::size_t(t.suns.suns));
+  // Harmonics of the finished slices.
   std::vector<float> harmonics(std::size_t(t.suns.suns) * 3 * kHarmonics),
       logScale(std::size_t(t.suns.suns));
   const Status projected =
@@ -292,6 +304,8 @@ Result<SkyTable> SkyTable::make(const Atmosphere& atmosphere, double altitude,
           harmonics[sun * 3 * kHarmonics + i] = float(xyz[i] / scale);
       });
   if (!projected) return projected.error();
+  makeSplines(harmonics, std::size_t(t.suns.suns));
+  makeSplines(logScale, std::size_t(t.suns.suns));
   t.harmonics = std::move(harmonics);
   t.logScale = std::move(logScale);
   return SkyTable(impl);
@@ -308,8 +322,9 @@ SkyTable::Light SkyTable::light(double sunElevation, double nearness,
   float diffuse[kLanes] = {};
   for (int k = 0; k < 4; ++k)
     for (std::size_t l = 0; l < kLanes; ++l)
-      diffuse[l] += float(taps.weight[k]) * t.groundDiffuse[std::size_t(taps.first + k) * kLanes + l];
-  const auto towardsSun = [&](double altitude, float (&logs)[kLanes]) {
+      diffuse[l] +=
+          float(taps.weight[k]) * t.groundDiffuse[std::size_t(taps.first + k) * kLanes + l];
+  const auto towardsSun = [&](double altitude, float(&logs)[kLanes]) {
     float lengths[kParts];
     t.lengths.at(altitude, kPi / 2 - sunElevation, lengths);
     for (int part = 0; part < kParts; ++part)
@@ -329,6 +344,41 @@ SkyTable::Light SkyTable::light(double sunElevation, double nearness,
     light.sun.push_back(above * std::exp(double(spectral(atViewer))));
   }
   return light;
+}
+
+std::string tableKey(const Atmosphere& atmosphere, double altitude) {
+  return fmt::format("lambent sky table 1\n{}\naltitude {:a}\n", toJson(atmosphere), altitude);
+}
+
+std::vector<std::byte> SkyTable::bytes() const {
+  const std::string key = tableKey(impl_->atmosphere, impl_->altitude);
+  std::vector<std::byte> out(key.size());
+  std::memcpy(out.data(), key.data(), key.size());
+  for (const std::vector<float>* part : impl_->stored()) {
+    const std::size_t at = out.size();
+    out.resize(at + part->size() * sizeof(float));
+    std::memcpy(out.data() + at, part->data(), part->size() * sizeof(float));
+  }
+  return out;
+}
+
+std::optional<SkyTable> SkyTable::fromBytes(std::span<const std::byte> bytes,
+                                            const Atmosphere& atmosphere, double altitude) {
+  const std::string key = tableKey(atmosphere, altitude);
+  if (bytes.size() < key.size() || std::memcmp(bytes.data(), key.data(), key.size()) != 0)
+    return std::nullopt;
+  const std::shared_ptr<Impl> impl = emptyTable(atmosphere, altitude);
+  impl->harmonics.resize(std::size_t(impl->suns.suns) * 3 * kHarmonics);
+  impl->logScale.resize(std::size_t(impl->suns.suns));
+  std::size_t at = key.size();
+  for (std::vector<float>* part : impl->stored()) {
+    const std::size_t size = part->size() * sizeof(float);
+    if (bytes.size() - at < size) return std::nullopt;
+    std::memcpy(part->data(), bytes.data() + at, size);
+    at += size;
+  }
+  if (at != bytes.size()) return std::nullopt;
+  return SkyTable(impl);
 }
 
 double SkyTable::altitude() const {

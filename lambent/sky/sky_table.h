@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lambent/report/progress.h"
@@ -24,6 +25,7 @@ inline constexpr double kLowestSun = -18.6 * kPi / 180;
 /// light but that which aerosols scattered once, and of that without its phase function.
 class SkyTable {
  public:
+  struct Impl;
   /// nm, over 340 … 740: as many as the kernels have lanes.
   static const std::array<double, kLanes>& wavelengths();
 
@@ -45,16 +47,18 @@ class SkyTable {
   double altitude() const;
   double horizon() const;  ///< its elevation, rad, ≤ 0
 
-  /// As bytes that depend on nothing but the table, and back: nothing if they are damaged, or of
+  /// As bytes that begin with tableKey(), and back: nothing if they are of another length, or of
   /// another atmosphere or altitude.
   std::vector<std::byte> bytes() const;
   static std::optional<SkyTable> fromBytes(std::span<const std::byte> bytes,
                                            const Atmosphere& atmosphere, double altitude);
 
  private:
-  struct Impl;
   explicit SkyTable(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
 };
+
+/// All that a table is of, and the version of how it is made.
+std::string tableKey(const Atmosphere& atmosphere, double altitude);
 
 }  // namespace lambent::sky

@@ -35,8 +35,8 @@ class ColorUnderSun {
   radiometry::Xyzv operator()(const float* logs) const;
 
  private:
-  std::vector<SpectralTaps> taps_;                  ///< every 5 nm
-  std::vector<std::array<float, 4>> weights_;       ///< of each, for X, Y, Z and V′
+  std::vector<SpectralTaps> taps_;             ///< every 5 nm
+  std::vector<std::array<float, 4>> weights_;  ///< of each, for X, Y, Z and V′
 };
 
 }  // namespace lambent::sky

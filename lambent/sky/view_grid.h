@@ -35,10 +35,10 @@ struct ViewGrid {
   };
   Row rowOf(double elevation) const {
     if (elevation >= horizon)
-      return {true, (above - 1) * std::sqrt(std::clamp(
-                                      (elevation - horizon) / (kPi / 2 - horizon), 0.0, 1.0))};
-    return {false, (below - 1) * std::sqrt(std::clamp(
-                                     (horizon - elevation) / (kPi / 2 + horizon), 0.0, 1.0))};
+      return {true, (above - 1) * std::sqrt(std::clamp((elevation - horizon) / (kPi / 2 - horizon),
+                                                       0.0, 1.0))};
+    return {false, (below - 1) * std::sqrt(std::clamp((horizon - elevation) / (kPi / 2 + horizon),
+                                                      0.0, 1.0))};
   }
   double columnOf(double azimuth) const { return azimuth / kPi * (azimuths - 1); }
 
