@@ -117,7 +117,7 @@ std::optional<Vec3d> directionOfPixel(const PictureShape& shape, int x, int y) {
     const Vector2d nearest(std::max(std::abs(p.x()) - half, 0.0),
                            std::max(std::abs(p.y()) - half, 0.0));
     if (nearest.squaredNorm() >= 1) return std::nullopt;
-    p.normalize();
+    p *= (1 - 1e-9) / p.norm();  // still above a level horizon
   }
   return fisheyeDirection(p);
 }

@@ -280,6 +280,20 @@ TEST(SkyPicture, BelowTheHorizon) {
   EXPECT_NEAR(black[17] / dome[17], 0.5, 0.02);
 }
 
+TEST(SkyPicture, TheRimOfAFisheyeIsSky) {
+  Sky sky = skyWith(std::make_shared<Rainbow>(), 0.5);
+  SkyPictureOptions options;
+  options.shape = {PictureMap::Fisheye, 101, 101};
+  options.quantity = Quantity::Luminance;
+  options.below = BelowHorizon::Black;
+  const auto picture = drawn(sky, options);
+  for (size_t i = 0; i < picture.channels[0].values.size(); ++i) {
+    if (picture.channels[1].values[i] > 0) {
+      EXPECT_GE(picture.channels[0].values[i], 2000);
+    }
+  }
+}
+
 TEST(SkyPicture, SightAgrees) {
   const Sky sky = skyWith(std::make_shared<Rainbow>(), 0.5);
   const std::vector<double> nm{450, 800};

@@ -24,7 +24,7 @@ constexpr SourceKind kKinds[] = {
     {"directional", "directional:AZIMUTH,ELEVATION[,IRRADIANCE]", "", Takes::Numbers,
      directionalLight},
     {"sky", "sky:KEY=VALUE[,…]",
-     "a sky with its Sun and ground, by the keys of 'lambent sky': date, time, lat, lon, …",
+     "a sky with its Sun and ground, by the keys of 'lambent sky'",
      Takes::Keys, skyLight},
     {"cube", "cube:FILE", "", Takes::File, cubeMap},
     {"angular", "angular:FILE", "", Takes::File, angularMap},
