@@ -73,6 +73,9 @@ struct Atmosphere {
   bool operator==(const Atmosphere&) const = default;
 };
 
+/// W m⁻² nm⁻¹ above the air at 1 AU, at a wavelength in nm.
+double solarIrradianceOf(const Atmosphere& atmosphere, double nanometres);
+
 /// preetham1999practical, appendix 1: aerosols with Ångström exponent 1.3 and thickness .04608 T − .04586 at
 /// 1 µm. 1 ≤ turbidity ≤ 10 (1: no aerosols).
 Atmosphere withTurbidity(Atmosphere atmosphere, double turbidity);

@@ -8,9 +8,7 @@
 #include <nlohmann/json.hpp>
 
 namespace lambent::sky {
-namespace {
 
-/// Levenshtein's distance: how many letters have to be put in, taken out or exchanged.
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t(0));
@@ -25,8 +23,6 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   }
   return row.back();
 }
-
-}  // namespace
 
 std::string quotedJson(const nlohmann::json& value) {
   std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);

@@ -23,6 +23,9 @@ struct Bounds {
 /// As the value stands in the file, in ASCII, its first 40 characters.
 std::string quotedJson(const nlohmann::json& value);
 
+/// Levenshtein's distance: how many letters have to be put in, taken out or exchanged.
+std::size_t editDistance(std::string_view a, std::string_view b);
+
 /// "did you mean …?": the word that the given one is a part of (the shortest), or else comes nearest
 /// to. What is like none: "there are …", all of them.
 std::string hint(std::string_view given, const std::vector<std::string_view>& words);
