@@ -104,8 +104,8 @@ std::string toJson(const Atmosphere& a) {
   const auto profile = [](const media::DensityProfile& density) {
     return std::visit(ProfileText{}, density.law());
   };
-  using Json = nlohmann::json;
-  add("name", Json(a.name).dump(-1, ' ', false, Json::error_handler_t::replace));
+  add("name",
+      nlohmann::json(a.name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   add("planet_radius_m", jsonNumber(a.planetRadius));
   add("top_m", jsonNumber(a.height));
   add("rayleigh", fmt::format("\"{}\"", rayleighName(a.rayleigh)));
