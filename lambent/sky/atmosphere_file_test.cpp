@@ -281,6 +281,7 @@ TEST(AtmosphereFile, UnknownKeysAreRefusedWithTheNearest) {
   expectHint("Air", "air");
   expectHint("albedo", "ground_albedo");
   expectHint("turbidity", "aerosols.turbidity");
+  expectHint("turbidty", "aerosols.turbidity");
   expectHint("aerosol", "aerosols");
   expectHint("sun_irradiance", "solar_irradiance");
   expectRefused(R"("zzz": 1)",

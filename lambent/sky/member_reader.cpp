@@ -38,7 +38,7 @@ std::string hint(std::string_view given, const std::vector<std::string_view>& wo
   for (const std::string_view word : words) {
     const bool part = given.size() >= 3 && word.find(given) != word.npos;
     if (least == 0 || part < isPart) continue;
-    const std::size_t distance = editDistance(given, word);
+    const std::size_t distance = editDistance(given, word.substr(word.rfind('.') + 1));
     if (part == isPart && distance >= least) continue;
     nearest = word, least = distance, isPart = part;
   }

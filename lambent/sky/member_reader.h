@@ -27,7 +27,7 @@ std::string quotedJson(const nlohmann::json& value);
 std::size_t editDistance(std::string_view a, std::string_view b);
 
 /// "did you mean …?": the word that the given one is a part of (the shortest), or else comes nearest
-/// to. What is like none: "there are …", all of them.
+/// to (of a path, its last part). What is like none: "there are …", all of them.
 std::string hint(std::string_view given, const std::vector<std::string_view>& words);
 
 /// Reads members into values that hold their defaults. The first thing that is wrong is kept, and
