@@ -23,8 +23,7 @@ constexpr SourceKind kKinds[] = {
      "degrees; azimuth from +x towards +z, elevation from the horizon", Takes::Numbers, discLight},
     {"directional", "directional:AZIMUTH,ELEVATION[,IRRADIANCE]", "", Takes::Numbers,
      directionalLight},
-    {"sky", "sky:KEY=VALUE[,…]",
-     "a sky with its Sun and ground, by the keys of 'lambent sky': date, time, lat, lon, …",
+    {"sky", "sky:KEY=VALUE[,…]", "sky, Sun and ground; its keys are the options of 'lambent sky'",
      Takes::Keys, skyLight},
     {"cube", "cube:FILE", "", Takes::File, cubeMap},
     {"angular", "angular:FILE", "", Takes::File, angularMap},
@@ -74,8 +73,7 @@ Result<Light> makeTerm(std::string_view text, const SourceOptions& options) {
 std::size_t endOfTerm(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   const SourceKind* kind = kindOf(rest.substr(0, rest.find('+')));
-  if (kind && kind->takes == Takes::Keys)
-    return endOfKeys(text, std::min(at + kind->word.size() + 1, text.size()));
+  if (kind && kind->takes == Takes::Keys) return endOfKeys(text, at + kind->word.size());
   const bool numbers = kind && kind->takes == Takes::Numbers;
   // Where the file's name begins.
   const std::size_t name =
