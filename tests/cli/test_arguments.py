@@ -212,7 +212,7 @@ class Replaced(ToolTest):
                                  ("cube:c.png", "c.png"), ("uniform:1e+3+cube:c.png", "c.png")):
                 self.kept(verb, thing, "--light", source, "-o", file, *more,
                           says=["--output", file, "--light"])
-        self.write("air.json", '{"lambent": "atmosphere", "ozone": 250}')
+        self.write("air.json", '{"lambent": "atmosphere", "ozone_dobson": 250}')
         sky = "uniform+sky:sun-elevation=+30,model=preetham,atmosphere=air.json"
         self.kept("light", sky, "-o", "air.json", says=["--output", "SOURCE"])
         self.kept("light", "l.json", "-o", "l.json", says=["--output", "SOURCE"])
