@@ -49,7 +49,7 @@ struct Atmosphere {
 
   std::string name = "clear";
   double planetRadius = 6.36e6;  ///< m
-  double height = 6e4;           ///< of its top above the ground, m
+  double height = 1e5;           ///< of its top above the ground, m
 
   Rayleigh rayleigh = Rayleigh::Penndorf;
   media::DensityProfile air = media::DensityProfile::exponential(8000);

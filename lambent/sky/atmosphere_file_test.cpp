@@ -128,7 +128,7 @@ TEST(AtmosphereFile, IsReadable) {
   "lambent": "atmosphere",
   "name": "standard",
   "planet_radius_m": 6360000,
-  "top_m": 85000,
+  "top_m": 100000,
   "rayleigh": "penndorf",
   "air": "us1976",
   "aerosols": {"turbidity": 3},
@@ -341,8 +341,8 @@ TEST(AtmosphereFile, WrongShapesAreRefused) {
                 {"\"air.altitude_m[1]\" is null, not a number"});
   expectRefused(R"("aerosol_profile": {"altitude_km": [0], "density": [0]})",
                 {"\"aerosol_profile\"", "no place"});
-  expectRefused(R"("ozone_profile": {"altitude_km": [0, 80, 90], "density": [0, 0, 1]})",
-                {"\"ozone_profile\"", "below the top (60 km)"});
+  expectRefused(R"("ozone_profile": {"altitude_km": [0, 120, 130], "density": [0, 0, 1]})",
+                {"\"ozone_profile\"", "below the top (100 km)"});
   EXPECT_EQ(
       parsed(R"(, "base": "pure", "ozone_profile": {"altitude_km": [0], "density": [0]})").ozone,
       0);

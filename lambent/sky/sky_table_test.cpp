@@ -103,7 +103,9 @@ TEST(SkyTables, HoldTheSkyOfEveryPlaceOfTheSun) {
       ASSERT_TRUE(std::isfinite(y));
       if (i > 1) {
         EXPECT_LT(std::abs(y - 2 * before + twoBefore), 0.015) << sun / kDegree;
-        if (sun < 0) EXPECT_LT(y, before) << sun / kDegree;
+        if (sun < 0) {
+          EXPECT_LT(y, before) << sun / kDegree;
+        }
       }
       twoBefore = before;
       before = y;
