@@ -141,7 +141,7 @@ TEST(SkyRequest, MistakesAreNamed) {
   expectRefused("sun-elevation=10,refine=1", {"refine", "exact"});
   expectRefused("sun-elevation=10,atmosphere=thick", {"'thick'", "clear", "reference"});
   expectRefused("sun-elevation=10,atmosphere=none.json", {"none.json"}, ErrorKind::BadInput);
-  expectRefused("sun-elevation=10,altitude=100001", {"in space", "60000"});
+  expectRefused("sun-elevation=10,altitude=100001", {"in space", "100000"});
   expectRefused("sun-elevation=10+uniform", {"'+'"});
 }
 
