@@ -66,12 +66,8 @@ void NamedFiles::readsState(const std::string& name, const fs::path& path) {
 }
 
 void NamedFiles::readsLight(const std::string& name, std::string_view source) {
-  for (const std::string_view term : sources::sourceTerms(source)) {
-    const sources::SourceKind* kind = sources::kindOf(term);
-    if (kind && kind->takes != sources::SourceKind::Takes::File) continue;
-    reads(name,
-          std::string(kind ? term.substr(std::min(kind->word.size() + 1, term.size())) : term));
-  }
+  for (const std::string_view term : sources::sourceTerms(source))
+    for (const fs::path& path : sources::filesOf(term)) reads(name, path);
 }
 
 void NamedFiles::writes(std::string option, const fs::path& path,

@@ -69,7 +69,7 @@ Result<Json> addEnvironment(const std::string& source, std::size_t number,
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const std::string term(terms[k]);
     const sources::SourceKind* kind = sources::kindOf(term);
-    if (kind && kind->takes == sources::SourceKind::Takes::Numbers) continue;
+    if (kind && kind->takes != sources::SourceKind::Takes::File) continue;
     const std::string stem = fmt::format("files/environment-{}-{}", number, k);
     std::string name = stem + extensionOf(term);
     if (kind) {

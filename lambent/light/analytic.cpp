@@ -1,47 +1,19 @@
-// Lights that a formula gives: uniform, disc, directional, clamped cosine. All are zonal, so their
-// projections are Legendre moments turned to the axis (exact, in double precision).
+// Lights that a formula gives: uniform, directional, clamped cosine; discs are in disc.cpp. All are
+// zonal, so their projections are Legendre moments turned to the axis (exact, in double precision).
 //
 // This work is based on:
 // - sloan2002precomputed: §3, eq. 6: rotation of zonal functions as an evaluation of the basis.
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <vector>
+#include <limits>
 
-#include <Eigen/Geometry>
-
+#include "lambent/light/around_axis.h"
 #include "lambent/light/built_in.h"
-#include "lambent/math/directions.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
 
 namespace lambent::light {
 namespace {
-
-Vec3d turned(const Mat3& dstFromSrc, const Vec3d& axis) {
-  return (dstFromSrc.cast<double>() * axis).normalized();
-}
-
-void addZonal(const sh::ZonalMoments& moments, const Vec3d& axis, const Rgb& color,
-              std::span<double> out) {
-  const std::size_t count = moments.size() * moments.size();
-  std::vector<double> one(count);
-  sh::turnTo(moments, axis, std::span<double>(one));
-  for (int c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < count; ++i) out[c * count + i] += double(color[c]) * one[i];
-}
-
-/// A unit vector at an angle from `axis`, given by versine = 1 − cos: that keeps the digits of
-/// small angles, which cos itself loses.
-Vec3d aroundAxis(const Vec3d& axis, double versine, double turn) {
-  const Mat3d frame = math::worldFromTangent(axis.cast<float>()).cast<double>();
-  // The frame is of single precision: made orthogonal to the axis again in double.
-  const Vec3d x = (frame.col(0) - axis * axis.dot(frame.col(0))).normalized();
-  const Vec3d y = axis.cross(x);
-  const double sine = std::sqrt(std::max(0.0, versine * (2 - versine)));
-  return (1 - versine) * axis +
-         sine * (std::cos(2 * kPi * turn) * x + std::sin(2 * kPi * turn) * y);
-}
 
 class Uniform final : public Component {
  public:
@@ -64,46 +36,6 @@ class Uniform final : public Component {
   }
 
  private:
-  Rgb radiance_;
-};
-
-class Disc final : public Component {
- public:
-  Disc(const Vec3d& axis, double angularDiameter, const Rgb& radiance)
-      : axis_(axis), halfAngle_(angularDiameter / 2), radiance_(radiance) {
-    assert(angularDiameter <= 2 * kPi * (1 + 1e-12));
-    const double s = std::sin(halfAngle_ / 2);
-    versine_ = 2 * s * s;
-    solidAngle_ = 2 * kPi * versine_;
-  }
-  double power() const override { return solidAngle_ * importance(radiance_); }
-  Rgb radiance(const Vec3& direction) const override {
-    return within(direction) ? radiance_ : Rgb(Rgb::Zero());
-  }
-  double pdf(const Vec3& direction) const override {
-    return within(direction) ? 1 / solidAngle_ : 0;
-  }
-  Drawn draw(double u1, double u2) const override {
-    return {aroundAxis(axis_, u1 * versine_, u2).cast<float>(), radiance_, 1 / solidAngle_};
-  }
-  void addProjection(int bands, std::span<double> out) const override {
-    addZonal(sh::cap(bands, halfAngle_), axis_, radiance_, out);
-  }
-  ComponentPtr rotated(const Mat3& dstFromSrc) const override {
-    return makeDisc(turned(dstFromSrc, axis_), 2 * halfAngle_, radiance_);
-  }
-  bool addTo(Environment::Parts& parts) const override {
-    parts.discs.push_back({axis_.cast<float>(), versine_, radiance_});
-    return true;
-  }
-
- private:
-  bool within(const Vec3& direction) const {
-    // |s − axis|² = 2 (1 − cos): compares small angles without cancellation.
-    return (direction.cast<double>() - axis_).squaredNorm() <= 2 * versine_;
-  }
-  Vec3d axis_;
-  double halfAngle_, versine_, solidAngle_;
   Rgb radiance_;
 };
 
@@ -162,10 +94,6 @@ class ClampedCosine final : public Component {
 
 ComponentPtr makeUniform(const Rgb& radiance) {
   return std::make_shared<Uniform>(radiance);
-}
-ComponentPtr makeDisc(const Vec3d& axis, double angularDiameter, const Rgb& radiance) {
-  if (!(angularDiameter > 0)) return makeUniform(Rgb::Zero());  // a disc without area is black
-  return std::make_shared<Disc>(axis.normalized(), angularDiameter, radiance);
 }
 ComponentPtr makeDirectional(const Vec3d& direction, const Rgb& irradiance) {
   return std::make_shared<Directional>(direction.normalized(), irradiance);

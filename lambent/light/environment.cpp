@@ -38,7 +38,22 @@ Environment Environment::uniform(const Rgb& radiance) {
   return of(makeUniform(radiance));
 }
 Environment Environment::disc(const Vec3& direction, double angularDiameter, const Rgb& radiance) {
-  return of(makeDisc(direction.cast<double>(), angularDiameter, radiance));
+  const double sine = std::sin(std::max(angularDiameter, 0.0) / 4);
+  return of(makeDisc({direction.cast<double>(), 2 * sine * sine, radiance}));
+}
+Environment Environment::disc(const LimbDarkened& disc) {
+  return of(makeLimbDarkened(disc));
+}
+Environment Environment::skylight(std::shared_ptr<const Skylight> light, const Mat3& worldFromSky) {
+  assert(light);
+  return of(makeSkylight(std::move(light), worldFromSky));
+}
+Environment Environment::ground(const Vec3& up, double horizon, const Rgb& radiance) {
+  return of(makeGround(up.cast<double>(), std::sin(horizon), radiance));
+}
+Environment Environment::disc(const Disc& disc) {
+  return of(makeDisc({disc.axis.cast<double>(), disc.versine, disc.radiance, disc.darkening,
+                      disc.up.cast<double>(), disc.horizon}));
 }
 Environment Environment::directional(const Vec3& direction, const Rgb& irradiance) {
   return of(makeDirectional(direction.cast<double>(), irradiance));

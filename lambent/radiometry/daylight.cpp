@@ -1,8 +1,9 @@
 // Spectra of daylight of a given colour.
 //
-// This work is based on judd1964spectral, as CIE 15 and the seed's section on spectral radiance have
-// it: S(λ) = S₀(λ) + M₁ S₁(λ) + M₂ S₂(λ) with M₁ and M₂ from the chromaticity.
-// Deviation: power is never negative. What is negative becomes 0, before the scale to the luminance.
+// This work is based on judd1964spectral, as CIE 15 and preetham2003modeling
+// have it: S(λ) = S₀(λ) + M₁ S₁(λ) + M₂ S₂(λ) with M₁ and M₂ from the chromaticity.
+// Deviation: power is never negative. What is negative becomes 0, before the scale to the
+// luminance.
 #include <algorithm>
 #include <cmath>
 

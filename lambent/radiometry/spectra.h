@@ -1,5 +1,5 @@
-// What daylight is made of, by wavelength: the Sun's spectrum, what air and ozone do to it, what eyes
-// make of it, and the spectra of daylight of a given colour.
+// What daylight is made of, by wavelength: the Sun's spectrum, what air and ozone do to it, what
+// eyes make of it, and the spectra of daylight of a given colour.
 //
 // Wavelengths are in nm. Each function is linear between the entries of one table; the tables stand
 // in the files *.inc, each with its source.
@@ -19,9 +19,9 @@ namespace lambent::radiometry {
 double solarIrradiance(double nm);
 
 /// The same spectrum as bruneton2017qualitative tabulates it, which published comparisons of sky
-/// radiance are in: a mean over 11.75 nm stands at the *lower* end of its band, so the spectrum lies
-/// 6 nm too low. 2.01449, 1.84687, 1.54572, 1.33778 at 450, 550, 650, 720 nm. Clamped outside of
-/// 336.5 … 818.25 nm.
+/// radiance are in: a mean over 11.75 nm stands at the *lower* end of its band, so the spectrum
+/// lies 6 nm too low. 2.01449, 1.84687, 1.54572, 1.33778 at 450, 550, 650, 720 nm. Clamped outside
+/// of 336.5 … 818.25 nm.
 double solarIrradianceOfComparisons(double nm);
 
 /// Molecular (Rayleigh) scattering coefficient of air at 15 °C and 1013.25 hPa, 1/m: table III of
@@ -49,9 +49,10 @@ using Xyzv = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
 using XyzvWeights = Eigen::Matrix<double, 4, Eigen::Dynamic>;
 
 /// The matrix that makes Xyzv of spectral radiances (W m⁻² sr⁻¹ nm⁻¹) at `nm`, which rise strictly:
-/// the integral of the 5-nm functions against the radiance that is linear between its samples, exact
-/// but for rounding. The radiance counts 0 outside of its samples: of a flat spectrum 380 … 740 nm
-/// hold all but 10⁻⁴ of Y and V′, and all but 5·10⁻⁴ of X and Z. One sample or none weighs 0.
+/// the integral of the 5-nm functions against the radiance that is linear between its samples,
+/// exact but for rounding. The radiance counts 0 outside of its samples: of a flat spectrum 380 …
+/// 740 nm hold all but 10⁻⁴ of Y and V′, and all but 5·10⁻⁴ of X and Z. One sample or none weighs
+/// 0.
 XyzvWeights xyzvWeights(std::span<const double> nm);
 /// xyzvWeights(nm) times the spectrum; both spans are of one length.
 Xyzv xyzvOf(std::span<const double> nm, std::span<const double> spectralRadiance);
@@ -60,8 +61,8 @@ Xyzv xyzvOf(std::span<const double> nm, std::span<const double> spectralRadiance
 /// .0722 B, is Y / 683.002 lm/W. Colours outside of the gamut have negative components.
 Eigen::Array3d linearRgbOf(const Xyzv& xyzv);
 
-/// Magnitudes per square arcsecond of a luminance in cd m⁻²: 12.58 − 2.5 log₁₀ L, the usual rounding
-/// of what garstang1986model has (12.59); +∞ for a luminance of 0.
+/// Magnitudes per square arcsecond of a luminance in cd m⁻²: 12.58 − 2.5 log₁₀ L, the usual
+/// rounding of what garstang1986model has (12.59); +∞ for a luminance of 0.
 double magnitudesPerSquareArcsecond(double luminance);
 
 // --- Daylight ---
@@ -70,19 +71,19 @@ double magnitudesPerSquareArcsecond(double luminance);
 struct DaylightCoefficients {
   double m1, m2;
 };
-/// For a chromaticity. The denominator, .0241 + .2562 x − .7341 y, is kept below −.001: chromaticities
-/// below y = .034 + .349 x, far from any daylight's, are not reproduced.
+/// For a chromaticity. The denominator, .0241 + .2562 x − .7341 y, is kept below −.001:
+/// chromaticities below y = .034 + .349 x, far from any daylight's, are not reproduced.
 DaylightCoefficients daylightCoefficients(double x, double y);
 /// The relative spectral power itself, 100 at 560 nm; may be negative for saturated colours. Linear
 /// between 300, 310 … 830 nm, 0 outside.
 double daylightPower(const DaylightCoefficients& coefficients, double nm);
-/// Spectral radiances (W m⁻² sr⁻¹ nm⁻¹) at `nm` of daylight with chromaticity x, y and luminance
-/// Y ≥ 0 in cd m⁻². Negative power is set to 0 before the scale to Y, which makes a saturated colour
+/// Spectral radiances (W m⁻² sr⁻¹ nm⁻¹) at `nm` of daylight with chromaticity x, y and luminance Y
+/// ≥ 0 in cd m⁻². Negative power is set to 0 before the scale to Y, which makes a saturated colour
 /// a little paler; power at all of 300 … 830 nm counts for the scale, whatever `nm` holds.
 std::vector<double> daylightSpectrum(double x, double y, double luminance,
                                      std::span<const double> nm);
-/// X, Y, Z of a chromaticity and luminance, and the V′ that daylight of that chromaticity has (≥ 0).
-/// y is kept above 10⁻⁶.
+/// X, Y, Z of a chromaticity and luminance, and the V′ that daylight of that chromaticity has (≥
+/// 0). y is kept above 10⁻⁶.
 Xyzv daylightXyzv(double x, double y, double luminance);
 
 }  // namespace lambent::radiometry

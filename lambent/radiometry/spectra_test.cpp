@@ -21,7 +21,8 @@ TEST(SolarIrradiance, BothTablesHoldTheSamePower) {
     own += solarIrradiance(nm + .5);
     ofComparisons += solarIrradianceOfComparisons(nm + .5 - 11.75 / 2);
   }
-  // The integral of the table at its own resolution, 400 … 700 nm; the band about 400 nm holds a step.
+  // The integral of the table at its own resolution, 400 … 700 nm; the band about 400 nm holds a
+  // step.
   EXPECT_NEAR(own, 529.96, 1.5);
   EXPECT_NEAR(ofComparisons / own, 1, 2e-3);
 }

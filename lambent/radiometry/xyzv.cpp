@@ -50,8 +50,8 @@ Xyzv xyzvOf(std::span<const double> nm, std::span<const double> spectralRadiance
 
 Eigen::Array3d linearRgbOf(const Xyzv& xyzv) {
   // Rec. 709 primaries and D65, x, y = .3127, .3290 (ITU-R BT.709): the inverse of the matrix whose
-  // second row is the luminance of the primaries. It is computed from those chromaticities, with the
-  // luminance row rounded to four digits as the standard rounds it.
+  // second row is the luminance of the primaries. It is computed from those chromaticities, with
+  // the luminance row rounded to four digits as the standard rounds it.
   static const Mat3d rgbFromXyz = [] {
     const auto column = [](double x, double y) { return Vec3d(x / y, 1, (1 - x - y) / y); };
     Mat3d xyzFromRgb;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "lambent/light/skylight.h"
 #include "lambent/math/directions.h"
 #include "lambent/render/shader_sources.h"
 #include "lambent/work/parallel_for.h"
@@ -36,9 +37,21 @@ Texture pictureOf(const Environment& environment, int width) {
   return texture;
 }
 
-Environment discOf(const Environment::Parts::Disc& disc) {
-  return Environment::disc(disc.axis, 4.0 * std::asin(std::sqrt(0.5 * disc.versine)),
-                           disc.radiance);
+/// Laid out as sampleSkylight (shaders/environment.glsl) looks it up.
+Texture skyOf(const light::Skylight& sky) {
+  constexpr int kWidth = kSmoothWidth, kHeight = kSmoothWidth / 2;
+  std::vector<Rgb> texels(std::size_t(kWidth) * kHeight);
+  const double horizon = sky.horizon();
+  work::parallelFor(kHeight, [&](int y) {
+    const double v = 1 - double(y) / (kHeight - 1);
+    const double elevation = horizon + (kPi / 2 - horizon) * v * v;
+    for (int x = 0; x < kWidth; ++x)
+      texels[std::size_t(y) * kWidth + x] = sky.radiance(
+          math::directionFromAzimuthElevation(2.0 * kPi * ((x + 0.5) / kWidth - 0.5), elevation));
+  });
+  Texture texture = makeTexture(GL_RGB32F, kWidth, kHeight);
+  glTextureSubImage2D(texture.name(), 0, 0, 0, kWidth, kHeight, GL_RGB, GL_FLOAT, texels.data());
+  return texture;
 }
 
 }  // namespace
@@ -66,7 +79,7 @@ Status GlEnvironment::set(const Environment& environment, int largestTexture) {
     parts.images.erase(parts.images.begin() + std::ptrdiff_t(k));
   }
   for (; parts.discs.size() > kMostDiscs; sharp = true) {
-    rest = rest + discOf(parts.discs.back());
+    rest = rest + Environment::disc(parts.discs.back());
     parts.discs.pop_back();
   }
 
@@ -83,6 +96,13 @@ Status GlEnvironment::set(const Environment& environment, int largestTexture) {
                         image->pixels.data());
     uploaded_ = image;
   }
+  if (!parts.sky) {
+    sky_ = Texture();
+    skyUploaded_.reset();
+  } else if (const auto& light = parts.sky->light; light != skyUploaded_) {
+    sky_ = skyOf(*light);
+    skyUploaded_ = light;
+  }
   parts.others.clear();
   parts_ = std::move(parts);
   return checkGl("uploading the environment");
@@ -96,6 +116,12 @@ void GlEnvironment::bind(const Program& program, const Mat3& environmentFromWorl
   if (!parts_.images.empty())
     program.setMatrix("pictureFromEnvironment",
                       Mat3(parts_.images.front().worldFromImage.transpose()));
+  program.set("hasSky", int(parts_.sky.has_value()));
+  if (parts_.sky) {
+    const Vec3 up = parts_.sky->worldFromSky.col(1);
+    program.setMatrix("skylightFromEnvironment", Mat3(parts_.sky->worldFromSky.transpose()));
+    program.set("skylightHorizon", up.x(), up.y(), up.z(), float(parts_.sky->horizon));
+  }
   program.set("discCount", int(parts_.discs.size()));
   for (std::size_t k = 0; k < parts_.discs.size(); ++k) {
     const auto& disc = parts_.discs[k];
@@ -103,9 +129,14 @@ void GlEnvironment::bind(const Program& program, const Mat3& environmentFromWorl
                 float(disc.versine));
     program.set(fmt::format("discRadiances[{}]", k).c_str(), disc.radiance[0], disc.radiance[1],
                 disc.radiance[2]);
+    program.set(fmt::format("discDarkenings[{}]", k).c_str(), disc.darkening[0], disc.darkening[1],
+                disc.darkening[2]);
+    program.set(fmt::format("discHorizons[{}]", k).c_str(), disc.up.x(), disc.up.y(), disc.up.z(),
+                float(disc.horizon));
   }
   glBindTextureUnit(1, picture_.name());
   glBindTextureUnit(2, rest_.name());
+  glBindTextureUnit(3, sky_.name());
 }
 
 }  // namespace lambent::render

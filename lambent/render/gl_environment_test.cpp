@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "lambent/light/test_skylight.h"
+#include "lambent/math/random.h"
 #include "lambent/reference/relit_picture.h"
 #include "lambent/render/gl_picture.h"
 #include "lambent/render/shader_sources.h"
@@ -57,6 +59,34 @@ TEST(GlEnvironment, ShowsDiscsAsTheCpuDoes) {
       ASSERT_TRUE(gl) << gl.error().message;
       test::expectSame(background ? "discs-behind" : "discs", *cpu, *gl);
     }
+}
+
+TEST(GlEnvironment, ShowsASkyAboveItsGroundAsTheCpuDoes) {
+  asset::Asset asset;
+  shade::test::addMirror(asset, shade::test::sphere(Vec3::Zero(), 0.7f, 32), Rgb::Ones());
+  const scene::Camera camera = shade::test::cameraAt(Vec3(-3.0f, 0.2f, 0.1f), Vec3(0, 0.3f, 0));
+  shade::PictureOptions options;
+  options.width = 128;
+  options.height = 96;
+  options.samples = 4;
+  options.background = true;
+  const Environment light =
+      Environment::skylight(std::make_shared<light::test::Glow>(-0.05, Rgb(1, 2, 3)),
+                            Mat3::Identity()) +
+      Environment::disc({.direction = Vec3(1, 0, 0.3f).normalized(),
+                         .angularDiameter = 0.2,
+                         .irradiance = Rgb(0.2f, 0.1f, 0.05f),
+                         .darkening = Rgb(0.5f, 0.6f, 0.7f),
+                         .horizon = -0.05}) +
+      Environment::ground(Vec3::UnitY(), -0.05, Rgb(0.3f, 0.2f, 0.1f));
+  const sh::RgbCoefficients none(3);
+  for (const Environment& each : {light, light.rotated(math::randomRotation(3))}) {
+    const auto cpu = reference::relitPicture(asset, none, each, camera, options);
+    ASSERT_TRUE(cpu) << cpu.error().message;
+    const auto gl = render::picture(asset, none, each, camera, options);
+    ASSERT_TRUE(gl) << gl.error().message;
+    test::expectSame("sky", *cpu, *gl);
+  }
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // Relative optical air mass: how much more air a slanted path crosses than a vertical one.
 //
 // This work is based on kasten1965new, which is the relative optical length of preetham2003modeling
-// and of preetham1999practical, and on kasten1989revised. Both hold for molecules, never for aerosols,
-// whose layer is thinner: at the horizon molecules have 36.5 or 37.9 (refraction included), aerosols
-// of scale height 1.2 km some 91.
+// and of preetham1999practical, and on kasten1989revised. Both hold for molecules, never for
+// aerosols, whose layer is thinner: at the horizon molecules have 36.5 or 37.9 (refraction
+// included), aerosols of scale height 1.2 km some 91.
 // Deviation: a path below the horizon counts as horizontal.
 #pragma once
 

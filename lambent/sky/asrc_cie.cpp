@@ -1,18 +1,21 @@
-// This work is based on what preetham2003modeling says of littlefair1994comparison and perez1992modeling:
-// a linear combination of the CIE cloudless sky, a cloudless sky of high turbidity, the intermediate
-// sky of nakamura1985luminance and the CIE overcast sky, weighted by clearness ε and brightness Δ.
+// This work is based on what preetham2003modeling says of littlefair1994comparison and
+// perez1992modeling: a linear combination of the CIE cloudless sky, a cloudless sky of high
+// turbidity, the intermediate sky of nakamura1985luminance and the CIE overcast sky, weighted by
+// clearness ε and brightness Δ.
 //
 // What was taken, and what is ours:
 // - clear: CIE 1973, (.91 + 10 e^(−3γ) + .45 cos² γ)(1 − e^(−.32 / cos θ));
 // - turbid: the same with (.856 + 16 e^(−3γ) + .3 cos² γ), CIE's polluted atmosphere;
 // - intermediate: nakamura1985luminance in its published closed form,
 //     (1.35 (sin(3.59 h − .009) + 2.31) sin(2.6 h_s + .316) + h + 4.799) / 2.326 ·
-//     e^(−.563 γ ((h_s − .008)(h + 1.059) + .812)), h elevation, h_s the Sun's, γ the angle between;
+//     e^(−.563 γ ((h_s − .008)(h + 1.059) + .812)),
+//     h elevation, h_s the Sun's, γ the angle between;
 // - overcast: (1 + 2 cos θ) / 3;
-// - ε orders overcast, intermediate, cloudless, and Δ splits the cloudless share: that much is in the
-//   sources that we could read. **The knots are ours** (AsrcKnots): no source at hand states numbers.
-// - each sky is scaled to its share of the diffuse illuminance, so that the mixture has the measured
-//   level whatever the weights. The illuminance is perez1990modeling's.
+// - ε orders overcast, intermediate, cloudless, and Δ splits the cloudless share: that much is in
+//   the sources that we could read. **The knots are ours** (AsrcKnots): no source at hand states
+//   numbers.
+// - each sky is scaled to its share of the diffuse illuminance, so that the mixture has the
+//   measured level whatever the weights. The illuminance is perez1990modeling's.
 #include "lambent/sky/asrc_cie.h"
 
 #include <algorithm>

@@ -36,6 +36,11 @@ double Spectral::at(double nanometres) const {
   return (1 - t) * values[i - 1] + t * values[i];
 }
 
+double solarIrradianceOf(const Atmosphere& atmosphere, double nanometres) {
+  return atmosphere.solarIrradiance ? atmosphere.solarIrradiance->at(nanometres)
+                                    : radiometry::solarIrradiance(nanometres);
+}
+
 Atmosphere withTurbidity(Atmosphere atmosphere, double turbidity) {
   atmosphere.aerosols = Atmosphere::Angstrom{std::max(0.0, 0.04608 * turbidity - 0.04586), 1.3};
   atmosphere.turbidity = turbidity;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "lambent/media/density_profile.h"
@@ -67,7 +68,12 @@ struct Atmosphere {
 
   /// The turbidity that made the aerosols, if one did (see withTurbidity).
   std::optional<double> turbidity;
+
+  bool operator==(const Atmosphere&) const = default;
 };
+
+/// W m⁻² nm⁻¹ above the air at 1 AU, at a wavelength in nm.
+double solarIrradianceOf(const Atmosphere& atmosphere, double nanometres);
 
 /// preetham1999practical, appendix 1: aerosols with Ångström exponent 1.3 and thickness .04608 T − .04586 at
 /// 1 µm. 1 ≤ turbidity ≤ 10 (1: no aerosols).

@@ -1,5 +1,5 @@
-// This work is based on dobashi1995fast, as preetham2003modeling tells of it: the sky as a weighted sum
-// of cosines of elevation and azimuth, beside spherical harmonics.
+// This work is based on dobashi1995fast, as preetham2003modeling tells of it: the sky as a weighted
+// sum of cosines of elevation and azimuth, beside spherical harmonics.
 // Deviations:
 // - azimuth counts from the Sun, where skies are even: cosines do without sines;
 // - weights are those of least squares over the hemisphere by solid angle, not of projection in the

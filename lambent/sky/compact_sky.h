@@ -9,16 +9,17 @@
 
 namespace lambent::sky {
 
-/// What a compact sky is a sum of, over the half dome z ≥ 0 of the Sun's frame (z and −z are alike).
+/// What a compact sky is a sum of, over the half dome z ≥ 0 of the Sun's frame (z and −z are
+/// alike).
 enum class CompactBasis {
   /// cos(2 i θ) cos(j φ), i, j < n: θ the zenith angle, φ the azimuth from the Sun
   /// (dobashi1995fast). Least squares over the hemisphere.
   Cosines,
-  /// n bands of spherical harmonics, their polar axis +y so that the zenith is the pole, least squares
-  /// over the upper hemisphere alone. Below it the sum means nothing.
+  /// n bands of spherical harmonics, their polar axis +y so that the zenith is the pole, least
+  /// squares over the upper hemisphere alone. Below it the sum means nothing.
   HarmonicsAbove,
-  /// n bands, projected from the sky above a black ground: what a light in harmonics is. It rings at
-  /// the horizon.
+  /// n bands, projected from the sky above a black ground: what a light in harmonics is. It rings
+  /// at the horizon.
   HarmonicsBlackBelow,
   /// n bands, projected from the sky and its mirror image below the horizon.
   HarmonicsMirrored,

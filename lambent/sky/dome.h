@@ -23,6 +23,12 @@ class Dome {
   /// W m⁻² sr⁻¹ nm⁻¹ at each of the wavelengths (nm, 340 … 740), into `radiance`, as many.
   virtual void spectrum(const Vec3d& direction, std::span<const double> wavelengths,
                         std::span<double> radiance) const = 0;
+  /// ∫ color y_i ds over what is above a horizon (elevation, rad) in 1 … 10 bands, if the dome has a
+  /// table of it: X, Y and Z into `xyz` one after the other, each of bands² numbers. false: it has
+  /// none, and `xyz` is as it was.
+  virtual bool harmonics(double /*horizon*/, int /*bands*/, std::span<double> /*xyz*/) const {
+    return false;
+  }
 };
 
 /// The Sun as its own component of a sky.

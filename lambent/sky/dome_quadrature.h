@@ -8,8 +8,8 @@
 
 namespace lambent::sky {
 
-/// Directions of the half z ≥ 0 of the dome in the Sun's frame, each with the solid angle that it and
-/// its mirror image stand for: skies are symmetric in z. The solid angles sum to 2π.
+/// Directions of the half z ≥ 0 of the dome in the Sun's frame, each with the solid angle that it
+/// and its mirror image stand for: skies are symmetric in z. The solid angles sum to 2π.
 struct DomeQuadrature {
   std::vector<Vec3d> directions;
   std::vector<double> solidAngles;

@@ -11,6 +11,7 @@
 #include "lambent/report/result.h"
 #include "lambent/sky/atmosphere.h"
 #include "lambent/sky/dome.h"
+#include "lambent/sky/sky_table.h"
 
 namespace lambent::sky {
 
@@ -33,7 +34,25 @@ struct SkyOptions {
   int refine = 0;  ///< of Exact: each step makes the discretisation finer
 };
 
-/// BadUsage names what is out of its range and the range.
+/// The wavelengths of the options, or every 10 nm of 340 … 740.
+std::vector<double> spectrumWavelengths(const SkyOptions& options);
+
+/// Makes skies, one after another: what is expensive and the same for the next one is kept.
+class SkyMaker {
+ public:
+  /// BadUsage names what is out of its range and the range.
+  Result<WithFindings<Sky>> make(const SkyOptions& options, const Progress& progress = {});
+
+ private:
+  Result<SkyTable> tableOf(const SkyOptions& options, Findings& findings, const Progress& progress);
+  struct Kept {
+    Atmosphere atmosphere;
+    SkyTable table;
+  };
+  std::optional<Kept> kept_;
+};
+
+/// One sky.
 Result<WithFindings<Sky>> makeSky(const SkyOptions& options, const Progress& progress = {});
 
 /// lambent/ in XDG_CACHE_HOME or ~/.cache; empty where neither is known.

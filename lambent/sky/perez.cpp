@@ -1,12 +1,12 @@
-// This work is based on perez1993all (the pattern, equations 1 … 4) and on perez1990modeling (clearness,
-// brightness, luminous efficacy).
+// This work is based on perez1993all (the pattern, equations 1 … 4) and on perez1990modeling
+// (clearness, brightness, luminous efficacy).
 //   L ∝ (1 + a e^(b / cos θ)) (1 + c e^(d γ) + e cos² γ),
 //   x = x₁ + x₂ Z + Δ (x₃ + x₄ Z) for a … e but for c and d of the first row.
 //   ε clearness, Δ brightness, Z the Sun's zenith angle: SkyCondition. W precipitable water.
 // Deviations:
-// - steps between rows of clearness are in the model; PerezOptions::blend mixes two skies, each with
-//   its own coefficients and efficacy, about a border. Mixing coefficients instead would make skies of
-//   neither kind: c and d of neighbours differ by factors.
+// - steps between rows of clearness are in the model; PerezOptions::blend mixes two skies, each
+//   with its own coefficients and efficacy, about a border. Mixing coefficients instead would make
+//   skies of neither kind: c and d of neighbours differ by factors.
 // - a factor that would be negative is 0, and b counts as at most 0: where the model is asked for
 //   what never was measured (a clear sky with hardly any diffuse light), its b is above 0 and the
 //   horizon infinite.

@@ -17,8 +17,9 @@ struct SkyCondition {
   double brightness = 0;  ///< Δ, .01 … .6
 };
 /// ε = ((E_d + E_n) / E_d + 1.041 Z³) / (1 + 1.041 Z³), Δ = m E_d / E_0, with the zenith angle Z in
-/// radians, E_0 = 1367 W m⁻² over the square of the Sun's distance (AU) and m kasten1965new's air mass.
-/// Clamped to the ranges above. Without any diffuse irradiance ε is 12 where there is a Sun, else 1.
+/// radians, E_0 = 1367 W m⁻² over the square of the Sun's distance (AU) and m kasten1965new's air
+/// mass. Clamped to the ranges above. Without any diffuse irradiance ε is 12 where there is a Sun,
+/// else 1.
 SkyCondition skyCondition(const MeasuredIrradiance& irradiance, double sunElevation,
                           double sunDistance = 1);
 
@@ -42,7 +43,8 @@ struct PerezOptions {
   double precipitableWater = 2;  ///< cm, above the place
   double sunDistance = 1;        ///< AU
   /// The rows differ, so that a sky whose clearness crosses a border jumps. Skies within this ratio
-  /// (as a logarithm) of a border are mixed of both; 0 leaves the steps. Below .03 no two borders meet.
+  /// (as a logarithm) of a border are mixed of both; 0 leaves the steps. Below .03 no two borders
+  /// meet.
   double blend = .03;
 };
 

@@ -12,15 +12,13 @@
 namespace lambent::sky {
 namespace {
 
-using test::kDegree;
-
 template <class Sky>
 double diffuseOf(const Sky& sky) {
   return onHorizontalPlane([&](const Vec3d& s) { return sky.luminance(s); });
 }
 
 TEST(Perez, AnchorOfGendaylit) {
-  const PerezCoefficients k = perezCoefficients(clearnessBin(3), .2, 45 * kDegree);
+  const PerezCoefficients k = perezCoefficients(clearnessBin(3), .2, 45 * test::kDegree);
   EXPECT_NEAR(k.a, -.881569, 1e-6);
   EXPECT_NEAR(k.b, -.370816, 1e-6);
   EXPECT_NEAR(k.c, 12.972025, 1e-6);
@@ -29,7 +27,7 @@ TEST(Perez, AnchorOfGendaylit) {
 }
 
 // a₁ … a₄, b₁ … e₄ of the eight rows.
-constexpr double kRows[8][20] = {
+constexpr double kPerezRows[8][20] = {
     {1.3525, -0.2576, -0.2690, -1.4366, -0.7670, 0.0007, 1.2734, -0.1233, 2.8000,  0.6004,
      1.2375, 1.000,   1.8734,  0.6297,  0.9738,  0.2809, 0.0356, -0.1246, -0.5718, 0.9938},
     {-1.2219, -0.7730, 1.4148,  1.1016,  -0.2054, 0.0367, -3.9128, 0.9156, 6.9750,  0.1774,
@@ -55,7 +53,7 @@ TEST(Perez, EveryRowOfTheTable) {
         const PerezCoefficients k = perezCoefficients(bin, delta, z);
         const double got[5] = {k.a, k.b, k.c, k.d, k.e};
         for (int i = 0; i < 5; ++i) {
-          const double* x = kRows[bin] + 4 * i;
+          const double* x = kPerezRows[bin] + 4 * i;
           double expected = x[0] + x[1] * z + delta * (x[2] + x[3] * z);
           if (bin == 0 && i == 2)
             expected = std::exp(std::pow(delta * (x[0] + x[1] * z), x[2])) - x[3];
@@ -85,10 +83,10 @@ TEST(Perez, Bins) {
 }
 
 TEST(Perez, ConditionOfMeasuredIrradiance) {
-  const SkyCondition sky = skyCondition({800, 100}, 45 * kDegree);
-  const double cubic = 1.041 * std::pow(45 * kDegree, 3);
+  const SkyCondition sky = skyCondition({800, 100}, 45 * test::kDegree);
+  const double cubic = 1.041 * std::pow(45 * test::kDegree, 3);
   EXPECT_NEAR(sky.clearness, (9 + cubic) / (1 + cubic), 1e-12);
-  EXPECT_NEAR(sky.brightness, kastenAirMass(45 * kDegree) * 100 / 1367, 1e-12);
+  EXPECT_NEAR(sky.brightness, kastenAirMass(45 * test::kDegree) * 100 / 1367, 1e-12);
   EXPECT_DOUBLE_EQ(skyCondition({0, 100}, .5).clearness, 1);
   EXPECT_DOUBLE_EQ(skyCondition({100, 0}, .5).clearness, 12);
   EXPECT_DOUBLE_EQ(skyCondition({0, 0}, .5).clearness, 1);
@@ -99,13 +97,13 @@ TEST(Perez, LevelIsTheDiffuseIlluminance) {
   for (const MeasuredIrradiance& measured :
        {MeasuredIrradiance{0, 120}, {250, 220}, {600, 150}, {850, 80}}) {
     for (const double elevation : {4., 30., 70.}) {
-      const PerezSky sky = perezSky(measured, elevation * kDegree);
+      const PerezSky sky = perezSky(measured, elevation * test::kDegree);
       EXPECT_NEAR(diffuseOf(sky) / sky.diffuseIlluminance, 1, 1e-12);
       // Daylight has 90 … 160 lm/W.
       const double efficacy = sky.diffuseIlluminance / measured.diffuseHorizontal;
       EXPECT_GT(efficacy, 90) << elevation;
       EXPECT_LT(efficacy, 170) << elevation;
-      const AsrcSky mixture = asrcSky(measured, elevation * kDegree);
+      const AsrcSky mixture = asrcSky(measured, elevation * test::kDegree);
       EXPECT_NEAR(diffuseOf(mixture) / mixture.diffuseIlluminance, 1, 1e-12);
       EXPECT_DOUBLE_EQ(mixture.diffuseIlluminance, sky.diffuseIlluminance);
     }

@@ -1,5 +1,5 @@
-// This work is based on preetham1999practical: equations 3 and 4 (form and turbidity), appendix 1 (the
-// Sun's light at the ground), appendix 2 (coefficients), and on preetham2003modeling.
+// This work is based on preetham1999practical: equations 3 and 4 (form and turbidity), appendix 1
+// (the Sun's light at the ground), appendix 2 (coefficients), and on preetham2003modeling.
 //   Y = Y_z F(θ, γ) / F(0, θ_s), and the same for the chromaticity x and y, each with its own
 //   F = (1 + A e^(B / cos θ)) (1 + C e^(D γ) + E cos² γ), coefficients linear in the turbidity T;
 //   Y_z = (4.0453 T − 4.9710) tan χ − .2155 T + 2.4192 kcd m⁻², χ = (4/9 − T/120)(π − 2 θ_s).
@@ -7,8 +7,9 @@
 // - T is kept in 2 … 10. The factor of tan χ is negative below T = 1.23, and Y_z is negative with a
 //   low Sun above T = 11.2; neither is a sky. tan χ itself is finite for every T ≥ 1 (χ ≤ 78.5°).
 // - With the Sun in the zenith the model's zenith stands at the Sun's own place: Y_z rises to 2.6
-//   times what it is with the Sun at 30° from there (T = 2). That is the table, and it is kept: it is
-//   continuous, and the sky away from the Sun hardly moves.
+//   times what it is with the Sun at 30° from there (T = 2). That is the table, and it is kept: it
+//   is continuous, and at 60° from the zenith, aside of the Sun, luminance rises by a sixth
+//   meanwhile.
 // - A Sun below the horizon: the sky of sunset times twilightFactor(). The model is far too bright
 //   already at sunset (2 kcd m⁻² in the zenith for T = 2, where .2 are measured), so that its
 //   twilight is as well: what is simulated is right there.

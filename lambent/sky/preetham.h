@@ -1,5 +1,5 @@
-// The sky and the Sun of preetham1999practical: luminance, colour and spectra of a clear to hazy sky
-// by one number, turbidity.
+// The sky and the Sun of preetham1999practical: luminance, colour and spectra of a clear to hazy
+// sky by one number, turbidity.
 #pragma once
 
 #include <span>
@@ -30,8 +30,9 @@ struct PreethamSky {
   std::vector<double> spectrum(const Vec3d& direction, std::span<const double> nm) const;
 };
 
-/// Turbidity counts as at least 2 and at most 10, the Sun below the horizon as on it, with its light
-/// times twilightFactor(). The paper was fitted to simulations of T = 2 … 6 with the Sun above the horizon.
+/// Turbidity counts as at least 2 and at most 10, the Sun below the horizon as on it, with its
+/// light times twilightFactor(). The paper was fitted to simulations of T = 2 … 6 with the Sun
+/// above the horizon.
 PreethamSky preethamSky(double turbidity, double sunElevation);
 
 struct ZenithColor {
@@ -42,8 +43,8 @@ struct ZenithColor {
 ZenithColor preethamZenith(double turbidity, double sunZenith);
 
 /// How much of the Sun's light reaches the ground, 0 … 1, at a wavelength of 300 … 800 nm (appendix
-/// 1): Rayleigh, Ångström's aerosols, ozone, mixed gases, water vapour. Turbidity from 1 (no aerosols).
-/// A Sun below the horizon counts as on it.
+/// 1): Rayleigh, Ångström's aerosols, ozone, mixed gases, water vapour. Turbidity from 1 (no
+/// aerosols). A Sun below the horizon counts as on it.
 struct SunPath {
   double turbidity = 2;
   double ozone = .35;             ///< cm

@@ -12,11 +12,10 @@
 namespace lambent::sky {
 namespace {
 
-using test::kDegree;
-
-// Turbidity, Sun's zenith angle in degrees, zenith luminance in cd/m², zenith x and y, and luminance at
-// 60° from the zenith, 90° of azimuth from the Sun: reference rows computed apart from this code.
-constexpr double kReference[][6] = {
+// Turbidity, Sun's zenith angle in degrees, zenith luminance in cd/m², zenith x and y, and
+// luminance at 60° from the zenith, 90° of azimuth from the Sun: reference rows computed apart from
+// this code.
+constexpr double kPreethamRows[][6] = {
     {2, 0, 15500.7, 0.26674, 0.27720, 8041.5},    {2, 30, 5886.7, 0.25142, 0.25592, 6858.7},
     {2, 60, 3487.3, 0.23801, 0.24199, 6447.3},    {2, 80, 2457.5, 0.25800, 0.27088, 5284.4},
     {2, 85, 2221.5, 0.26900, 0.28580, 4878.6},    {2, 88, 2081.4, 0.27700, 0.29652, 4615.3},
@@ -32,12 +31,12 @@ constexpr double kReference[][6] = {
 };
 
 TEST(Preetham, ReferenceRows) {
-  for (const auto& [turbidity, zenith, luminance, x, y, aside] : kReference) {
-    const ZenithColor color = preethamZenith(turbidity, zenith * kDegree);
+  for (const auto& [turbidity, zenith, luminance, x, y, aside] : kPreethamRows) {
+    const ZenithColor color = preethamZenith(turbidity, zenith * test::kDegree);
     EXPECT_NEAR(color.luminance, luminance, 1e-4 * luminance + .05) << turbidity << " " << zenith;
     EXPECT_NEAR(color.x, x, 1e-4) << turbidity << " " << zenith;
     EXPECT_NEAR(color.y, y, 1e-4) << turbidity << " " << zenith;
-    const PreethamSky sky = preethamSky(turbidity, kPi / 2 - zenith * kDegree);
+    const PreethamSky sky = preethamSky(turbidity, kPi / 2 - zenith * test::kDegree);
     const Vec3d up(0, 1, 0), across(0, .5, std::sqrt(3) / 2);
     EXPECT_NEAR(sky.luminance(up), luminance, 1e-4 * luminance + .05);
     EXPECT_NEAR(sky.luminance(across), aside, 1e-4 * aside + .05) << turbidity << " " << zenith;
@@ -47,7 +46,7 @@ TEST(Preetham, ReferenceRows) {
 }
 
 TEST(Preetham, SpectrumHasTheColour) {
-  const PreethamSky sky = preethamSky(3, 40 * kDegree);
+  const PreethamSky sky = preethamSky(3, 40 * test::kDegree);
   std::vector<double> nm;
   for (double at = 360; at <= 830; at += 10) nm.push_back(at);
   for (const Vec3d& direction : {Vec3d(0, 1, 0), Vec3d(-.8, .6, 0), Vec3d(0, .1, .995)}) {
@@ -62,9 +61,10 @@ TEST(Preetham, SpectrumHasTheColour) {
 TEST(Preetham, ZenithDoesNotJump) {
   // The Sun climbs through the zenith; nothing moves by more than its own slope allows.
   for (const double turbidity : {2., 4., 8.}) {
-    double before = preethamSky(turbidity, 80 * kDegree).luminance(Vec3d(0, 1, 0));
+    double before = preethamSky(turbidity, 80 * test::kDegree).luminance(Vec3d(0, 1, 0));
     for (double elevation = 80.05; elevation <= 90.001; elevation += .05) {
-      const double now = preethamSky(turbidity, elevation * kDegree).luminance(Vec3d(0, 1, 0));
+      const double now =
+          preethamSky(turbidity, elevation * test::kDegree).luminance(Vec3d(0, 1, 0));
       EXPECT_LT(std::abs(now / before - 1), .01) << turbidity << " " << elevation;
       before = now;
     }
@@ -73,9 +73,9 @@ TEST(Preetham, ZenithDoesNotJump) {
 
 TEST(Preetham, FadesThroughSunset) {
   const Vec3d direction = Vec3d(.5, .5, .3).normalized();
-  double before = preethamSky(3, .5 * kDegree).luminance(direction);
+  double before = preethamSky(3, .5 * test::kDegree).luminance(direction);
   for (double elevation = .4; elevation > -18.01; elevation -= .1) {
-    const double now = preethamSky(3, elevation * kDegree).luminance(direction);
+    const double now = preethamSky(3, elevation * test::kDegree).luminance(direction);
     EXPECT_LE(now, before * 1.001) << elevation;
     EXPECT_GE(now, before * .87) << elevation;  // a decade in less than 2° at the steepest
     before = now;
@@ -94,7 +94,7 @@ TEST(PreethamSun, Transmittance) {
     for (double nm = 330; nm <= 830; nm += 7) {
       double before = 1;
       for (const double turbidity : {1., 2., 4., 10.}) {
-        const double t = preethamSunTransmittance({turbidity}, elevation * kDegree, nm);
+        const double t = preethamSunTransmittance({turbidity}, elevation * test::kDegree, nm);
         EXPECT_TRUE(t >= 0 && t <= before) << nm << " " << elevation << " " << turbidity;
         before = t;
       }
@@ -106,28 +106,29 @@ TEST(PreethamSun, Transmittance) {
 
 TEST(AirMass, KnownValues) {
   EXPECT_NEAR(kastenAirMass(kPi / 2), 1, 1e-3);
-  EXPECT_NEAR(kastenAirMass(30 * kDegree), 2, .01);
+  EXPECT_NEAR(kastenAirMass(30 * test::kDegree), 2, .01);
   EXPECT_NEAR(kastenAirMass(0), 36.5, .05);
   EXPECT_NEAR(kastenYoungAirMass(0), 37.92, .05);
-  EXPECT_NEAR(kastenYoungAirMass(10 * kDegree), 5.586, .01);
+  EXPECT_NEAR(kastenYoungAirMass(10 * test::kDegree), 5.586, .01);
   EXPECT_DOUBLE_EQ(kastenAirMass(-.1), kastenAirMass(0));
 }
 
 TEST(Twilight, MonotoneAndOfKnownDepth) {
   EXPECT_DOUBLE_EQ(twilightFactor(.3), 1);
   EXPECT_DOUBLE_EQ(twilightFactor(0), 1);
-  // Tables of twilight: 3.4 lx at the end of civil twilight, .008 and .0006 of nautical and astronomical.
-  EXPECT_NEAR(758.6 * twilightFactor(-6 * kDegree), 3.4, .3);
-  EXPECT_NEAR(758.6 * twilightFactor(-12 * kDegree), .0083, .001);
-  EXPECT_NEAR(758.6 * twilightFactor(-18 * kDegree), .00065, .0001);
+  // Tables of twilight: 3.4 lx at the end of civil twilight, .008 and .0006 of nautical and
+  // astronomical.
+  EXPECT_NEAR(758.6 * twilightFactor(-6 * test::kDegree), 3.4, .3);
+  EXPECT_NEAR(758.6 * twilightFactor(-12 * test::kDegree), .0083, .001);
+  EXPECT_NEAR(758.6 * twilightFactor(-18 * test::kDegree), .00065, .0001);
   double before = 1;
   for (double degrees = 0; degrees > -18; degrees -= .05) {
-    const double now = twilightFactor(degrees * kDegree);
+    const double now = twilightFactor(degrees * test::kDegree);
     EXPECT_LE(now, before);
     EXPECT_GT(now, before * .93);
     before = now;
   }
-  EXPECT_DOUBLE_EQ(twilightFactor(-1), twilightFactor(-18 * kDegree));
+  EXPECT_DOUBLE_EQ(twilightFactor(-1), twilightFactor(-18 * test::kDegree));
 }
 
 }  // namespace

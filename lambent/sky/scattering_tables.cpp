@@ -7,18 +7,12 @@
 #include "lambent/math/isa.h"
 #include "lambent/math/types.h"
 #include "lambent/sky/interpolation.h"
+#include "lambent/sky/sun_above.h"
 
 namespace lambent::sky {
 namespace {
 
-constexpr double kSunRadius = 0.004652;  // rad
-constexpr double kDegree = kPi / 180;
-
-/// How much of a disc is above a straight edge: `above` is its centre's height in radii.
-double discAbove(double above) {
-  const double x = std::clamp(above, -1.0, 1.0);
-  return 1 - (std::acos(x) - x * std::sqrt(1 - x * x)) / kPi;
-}
+constexpr double kPerDegree = kPi / 180;
 
 /// A ray's direction and the Sun at a place along it.
 struct LocalFrame {
@@ -48,8 +42,9 @@ MarchKernels marchKernels() {
 }
 
 double Grid::sunCoordinate(double zenith) const {
-  const double degrees = zenith / kDegree;
-  return density * (degrees / 5 + 0.8 * 6 * std::log1p(std::exp((degrees - 78) / 6))) - first;
+  const double degrees = zenith / kPerDegree, past = degrees - 78;
+  const double more = (twilight - 0.2) / 2;
+  return density * (degrees / 5 + more * (past + std::sqrt(past * past + 64))) - first;
 }
 
 double Grid::sunZenith(int node) const {
@@ -174,17 +169,15 @@ double Scattering::Impl::sunZenithAtEnd(const AirPath& path, const RayInAir& ray
 }
 
 void Scattering::Impl::direct(const Block& block, double sunZenith, float (&out)[kLanes]) const {
-  const double visible = discAbove((kPi / 2 - sunZenith) / kSunRadius);
-  if (!(visible > 0)) {
+  const double share = horizontalShareOfDisc(kPi / 2 - sunZenith);
+  if (!(share > 0)) {
     std::fill_n(out, kLanes, 0.0f);
     return;
   }
   float lengths[kParts];
   sunLengths.at(0, sunZenith, lengths);
   block.transmit(lengths, out);
-  // Of a disc half set, what stands above has a mean cosine above 0.
-  const double cosine = std::max(std::cos(sunZenith), 0.4 * kSunRadius);
-  for (float& value : out) value *= float(cosine * visible);
+  for (float& value : out) value *= float(share);
 }
 
 void Scattering::Impl::fromLogs(const std::vector<float>& logs, double sunZenith,

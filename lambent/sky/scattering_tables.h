@@ -20,8 +20,9 @@ struct Grid {
   double density = 1;  ///< of the Sun's zenith angles, see Resolution
   double first = 0;    ///< coordinate of the first of them
   int suns = 0, altitudes = 0, zeniths = 0, azimuths = 0;
+  double twilight = 1;  ///< how many of the Sun's to a degree in twilight, at density 1
 
-  /// 5° between nodes by day and 1° in twilight, with a smooth change about 78°.
+  /// 5° between nodes by day, less in twilight, with a smooth change about 78°.
   double sunCoordinate(double zenith) const;
   double sunZenith(int node) const;
   double altitude(int node) const;

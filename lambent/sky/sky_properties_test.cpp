@@ -16,8 +16,6 @@
 namespace lambent::sky {
 namespace {
 
-using test::kDegree;
-
 /// Every model of luminance for a Sun, a turbidity and measured irradiances.
 std::vector<std::function<double(const Vec3d&)>> everySky(double elevation, double turbidity,
                                                           const MeasuredIrradiance& measured) {
@@ -39,7 +37,7 @@ TEST(EverySky, FiniteAndNeverNegative) {
   std::uniform_real_distribution<double> uniform(0, 1);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 120; ++trial) {
-    double elevation = (-18 + 108 * uniform(random)) * kDegree;
+    double elevation = (-18 + 108 * uniform(random)) * test::kDegree;
     if (trial == 0) elevation = kPi / 2;
     if (trial == 1) elevation = 0;
     const double turbidity = 1 + 12 * uniform(random);
@@ -58,7 +56,7 @@ TEST(EverySky, FiniteAndNeverNegative) {
       for (size_t k = 0; k < skies.size(); ++k) {
         const double luminance = skies[k](direction);
         ASSERT_TRUE(std::isfinite(luminance) && luminance >= 0 && luminance < 1e7)
-            << k << " gives " << luminance << " for a Sun at " << elevation / kDegree;
+            << k << " gives " << luminance << " for a Sun at " << elevation / test::kDegree;
         ASSERT_NEAR(skies[k](mirrored), luminance, 1e-9 * luminance + 1e-12) << k;
       }
       const radiometry::Xyzv color = preetham.color(direction);
@@ -73,9 +71,9 @@ TEST(EverySky, FiniteAndNeverNegative) {
 TEST(EverySky, NoStepsWhileTheSunSets) {
   const Vec3d direction = Vec3d(.4, .5, .3).normalized();
   const MeasuredIrradiance measured{300, 100};
-  auto before = everySky(2 * kDegree, 3, measured);
+  auto before = everySky(2 * test::kDegree, 3, measured);
   for (double elevation = 1.9; elevation > -18; elevation -= .1) {
-    auto now = everySky(elevation * kDegree, 3, measured);
+    auto now = everySky(elevation * test::kDegree, 3, measured);
     for (size_t k = 0; k < now.size(); ++k) {
       const double ratio = now[k](direction) / before[k](direction);
       ASSERT_TRUE(ratio > .85 && ratio < 1.1) << k << " at " << elevation << ": " << ratio;

@@ -39,15 +39,31 @@ struct RequestKey {
 };
 std::span<const RequestKey> requestKeys();
 
+/// Sets one by its name. BadUsage begins with the key; an unknown one gets the nearest and the list.
+Status setKey(SkyRequest& request, std::string_view key, std::string_view value);
+
+/// KEY=VALUE,KEY=VALUE,… A ',' in the name of an atmosphere's file that is there does not divide.
+Result<SkyRequest> parseRequest(std::string_view text);
+
+/// Where the value that begins at `at` (after its '=') ends: at the next ',' or '+', or with the
+/// text. A '+' that is a number's sign or in its exponent is part of it, and so are both in the name
+/// of an atmosphere's file that is there.
+std::size_t endOfRequestValue(std::string_view text, std::size_t at);
+
 /// A request with its Sun found.
 struct ResolvedSky {
   SkyOptions options;
   double sunBearing = 0;  ///< compass bearing of the Sun, rad
+  /// Of the Sun without refraction, rad; nothing where a person said how high it is seen.
+  std::optional<double> trueElevation;
   /// Turns the Sun's frame of a Dome to the world: +x of the frame to the Sun's azimuth.
   Mat3d worldFromSun = Mat3d::Identity();
 };
 /// BadUsage: what is missing (a date without a place, …) or contradicts; BadInput: a file.
 /// A Sun below −18° is refused with its elevation: that is night.
 Result<WithFindings<ResolvedSky>> resolve(const SkyRequest& request);
+
+/// That matrix for a compass bearing, rad.
+Mat3d worldFromSunAt(double bearing);
 
 }  // namespace lambent::sky

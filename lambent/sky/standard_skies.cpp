@@ -1,15 +1,16 @@
 // This work is based on CIE S 011 / ISO 15469:2004 and darula2002cie:
 //   L / L_z = f(γ) φ(θ) / (f(θ_s) φ(0)),   φ(θ) = 1 + a e^(b / cos θ),
 //   f(γ) = 1 + c (e^(d γ) − e^(d π/2)) + e cos² γ,
-// on the clear sky of 1973 as preetham2003modeling has it, and on the overcast sky of moon1942illumination.
-//   γ angle from the Sun, θ from the zenith, θ_s the Sun's: SkyAngles. f's constant, 1 − c e^(d π/2),
-//   is Indicatrix::k.
+// on the clear sky of 1973 as preetham2003modeling has it, and on the overcast sky of
+// moon1942illumination.
+//   γ angle from the Sun, θ from the zenith, θ_s the Sun's: SkyAngles. f's constant,
+//   1 − c e^(d π/2), is Indicatrix::k.
 // Deviations:
-// - the level of the fifteen: darula2002cie fits zenith luminance by type, and its fit grows without
-//   bounds with the Sun in the zenith. We take the same typical ratio of diffuse to extraterrestrial
-//   illuminance, integrate the sky and scale it; where the fit holds, the two agree (a test says how
-//   well). sin h of the Sun above the air is the inverse of kasten1965new's air mass, which is 3% more
-//   at 10° and leaves light at sunset.
+// - the level of the fifteen: darula2002cie fits zenith luminance by type, and its fit grows
+//   without bounds with the Sun in the zenith. We take the same typical ratio of diffuse to
+//   extraterrestrial illuminance, integrate the sky and scale it; where the fit holds, the two
+//   agree (a test says how well). sin h of the Sun above the air is the inverse of kasten1965new's
+//   air mass, which is 3% more at 10° and leaves light at sunset.
 // - with the Sun below the horizon: twilight.h.
 #include "lambent/sky/standard_skies.h"
 

@@ -1,6 +1,6 @@
-// The skies of the International Commission on Illumination: overcast, clear (1973), and the fifteen
-// of the standard general sky. Luminance alone, in cd m⁻², in the Sun's frame; below the horizon what
-// stands at the horizon above.
+// The skies of the International Commission on Illumination: overcast, clear (1973), and the
+// fifteen of the standard general sky. Luminance alone, in cd m⁻², in the Sun's frame; below the
+// horizon what stands at the horizon above.
 #pragma once
 
 #include "lambent/sky/sun_frame.h"
@@ -12,7 +12,8 @@ struct OvercastSky {
   double zenithLuminance = 1;  ///< cd m⁻²
   double luminance(const Vec3d& direction) const;
 };
-/// With the zenith luminance 123 + 8600 sin h cd m⁻² (krochmann1970uber), h the Sun's elevation.
+/// With the zenith luminance 123 + 8600 sin h cd m⁻² (krochmann1974quantitative), h the Sun's
+/// elevation.
 OvercastSky cieOvercast(double sunElevation);
 
 /// A sky made of a gradation towards the horizon and an indicatrix about the Sun.
@@ -34,9 +35,9 @@ GradedSky cieClear(double sunElevation, double turbidity = 2.45);
 struct StandardSkyShape {
   Gradation gradation;
   Indicatrix indicatrix;
-  double
-      diffuseRatio;  ///< typical of the type: illuminance from the sky over that of the Sun above the air,
-                     ///< both on a horizontal plane (darula2002cie)
+  /// Typical of the type: illuminance from the sky over that of the Sun above the air, both on a
+  /// horizontal plane (darula2002cie).
+  double diffuseRatio;
 };
 /// type 1 … 15; others are taken to the nearest.
 const StandardSkyShape& standardSkyShape(int type);

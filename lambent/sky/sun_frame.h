@@ -1,5 +1,5 @@
-// Angles of the sky as analytic models have them, in the Sun's frame: +y up, the Sun in the half plane
-// x ≥ 0, z = 0.
+// Angles of the sky as analytic models have them, in the Sun's frame: +y up, the Sun in the half
+// plane x ≥ 0, z = 0.
 #pragma once
 
 #include "lambent/math/types.h"
@@ -22,9 +22,9 @@ struct SkyAngles {
 };
 SkyAngles skyAngles(const Vec3d& direction, const Vec3d& sun);
 
-/// The form that CIE's general skies, perez1993all and preetham1999practical share:
-/// (1 + a e^(b / cos θ)) (k + c e^(d γ) + e cos² γ). cos θ is kept above .01, where e^(b / cos θ) with
-/// the b of skies, below −.1, is smaller than 10⁻⁴; a factor that would be negative is 0.
+/// The form that CIE's general skies, perez1993all and preetham1999practical share: (1 + a e^(b /
+/// cos θ)) (k + c e^(d γ) + e cos² γ). cos θ is kept above .01, where e^(b / cos θ) with the b of
+/// skies, below −.1, is smaller than 10⁻⁴; a factor that would be negative is 0.
 struct Gradation {
   double a = 0, b = -1;
   double at(double cosZenith) const;

@@ -1,7 +1,8 @@
-// This work is based on seidelmann1992explanatory, section 9.35: the decimal logarithm of the
-// illuminance on a horizontal plane as cubics of the Sun's elevation, three of them below the horizon.
-// Deviation: the cubics leave steps of 1% where they meet; we take their values every 3° and join
-// them monotonically with a continuous slope (fritsch1980monotone).
+// This work is based on seidelmann1992explanatory: the decimal logarithm of the
+// illuminance on a horizontal plane as cubics of the Sun's elevation, three of them below the
+// horizon.
+// Deviation: the cubics leave steps of 1% where they meet; we take their values every 3° and
+// join them monotonically with a continuous slope (fritsch1980monotone).
 #include "lambent/sky/twilight.h"
 
 #include <algorithm>

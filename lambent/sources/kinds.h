@@ -13,6 +13,13 @@ Result<Light> directionalLight(const Term& term, const SourceOptions& options);
 Result<Light> cubeMap(const Term& term, const SourceOptions& options);
 Result<Light> angularMap(const Term& term, const SourceOptions& options);
 Result<Light> mirrorBall(const Term& term, const SourceOptions& options);
+Result<Light> skyLight(const Term& term, const SourceOptions& options);
+
+/// The file among the keys of a sky, if one of them names one.
+std::optional<std::string_view> atmosphereOf(std::string_view rest);
+/// Where KEY=VALUE,… that begins at `at` ends: at a '+' that is no sign, in no exponent and in no
+/// name of a file that is there, or with the text.
+std::size_t endOfKeys(std::string_view text, std::size_t at);
 
 /// A file without a word before it, by its extension: a latitude-longitude map or a LIGHT.json.
 /// Nothing if a light is not in files of that kind.

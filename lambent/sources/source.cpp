@@ -23,6 +23,9 @@ constexpr SourceKind kKinds[] = {
      "degrees; azimuth from +x towards +z, elevation from the horizon", Takes::Numbers, discLight},
     {"directional", "directional:AZIMUTH,ELEVATION[,IRRADIANCE]", "", Takes::Numbers,
      directionalLight},
+    {"sky", "sky:KEY=VALUE[,…]",
+     "a sky with its Sun and ground, by the keys of 'lambent sky'",
+     Takes::Keys, skyLight},
     {"cube", "cube:FILE", "", Takes::File, cubeMap},
     {"angular", "angular:FILE", "", Takes::File, angularMap},
     {"ball", "ball:FILE", "", Takes::File, mirrorBall},
@@ -71,6 +74,8 @@ Result<Light> makeTerm(std::string_view text, const SourceOptions& options) {
 std::size_t endOfTerm(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   const SourceKind* kind = kindOf(rest.substr(0, rest.find('+')));
+  if (kind && kind->takes == Takes::Keys)
+    return endOfKeys(text, std::min(at + kind->word.size() + 1, text.size()));
   const bool numbers = kind && kind->takes == Takes::Numbers;
   // Where the file's name begins.
   const std::size_t name =
@@ -130,6 +135,17 @@ Result<Light> parseSource(std::string_view text, const SourceOptions& options) {
     sum->findings.insert(sum->findings.end(), light->findings.begin(), light->findings.end());
   }
   return std::move(*sum);
+}
+
+std::vector<std::filesystem::path> filesOf(std::string_view term) {
+  const SourceKind* kind = kindOf(term);
+  if (!kind) return {std::string(term)};
+  const std::string_view rest = term.substr(std::min(kind->word.size() + 1, term.size()));
+  if (kind->takes == Takes::File) return {std::string(rest)};
+  if (kind->takes == Takes::Keys)
+    if (const std::optional<std::string_view> file = atmosphereOf(rest))
+      return {std::string(*file)};
+  return {};
 }
 
 std::string sourceHelp() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +29,8 @@ struct SourceOptions {
 /// FILE.exr|.hdr|.png (lat-long, 2:1) | cube:FILE | angular:FILE | ball:FILE (see image::MapKind) |
 /// LIGHT.json | uniform[:RADIANCE] |
 /// disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE] | directional:AZIMUTH,ELEVATION[,IRRADIANCE]
-/// (degrees; azimuth from +x towards +z), and several joined by '+', which add up. RADIANCE
+/// (degrees; azimuth from +x towards +z) | sky:KEY=VALUE,… (see sky/sky_request.h: dome, Sun and
+/// ground of a moment and a place), and several joined by '+', which add up. RADIANCE
 /// (W m⁻² sr⁻¹) and IRRADIANCE (W m⁻², on a surface that faces the light) are one number or R/G/B.
 ///
 /// What cannot be understood is BadUsage, what is wrong with a file BadInput. Negative channels of
@@ -47,7 +49,7 @@ struct Term {
 };
 
 struct SourceKind {
-  enum class Takes { Numbers, File };
+  enum class Takes { Numbers, File, Keys };
   std::string_view word;    ///< what stands before the colon
   std::string_view syntax;  ///< "disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]"
   std::string_view help;    ///< a line for a person; empty: left out of sourceHelp()
@@ -59,6 +61,9 @@ struct SourceKind {
 std::span<const SourceKind> sourceKinds();
 /// The kind whose word a term begins with; null if the term is the name of a file.
 const SourceKind* kindOf(std::string_view term);
+
+/// The files that one term names: a map, a LIGHT.json, the atmosphere of a sky.
+std::vector<std::filesystem::path> filesOf(std::string_view term);
 
 /// "SOURCE of light:" and a line or two for each of its forms.
 std::string sourceHelp();

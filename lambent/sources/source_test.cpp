@@ -114,6 +114,56 @@ TEST_F(Source, MistakesComeWithAnExample) {
   expectError("scene.glb", usage, {"'scene.glb'", ".exr"});
 }
 
+TEST_F(Source, Skies) {
+  // South at noon, east in the morning: the Sun's disc outshines all that is beside it.
+  const auto noon = parseSource("sky:sun-elevation=30,model=preetham,turbidity=3");
+  ASSERT_TRUE(noon) << noon.error().message;
+  const float c = std::sqrt(0.75f);
+  EXPECT_GT(noon->value.radiance(Vec3(0, 0.5f, c))[1], 1e4f);
+  EXPECT_LT(noon->value.radiance(Vec3(0, 0.5f, -c))[1], 1e2f);
+  const auto morning =
+      parseSource("sky:date=2026-03-20,time=09:00,utc-offset=+2,lat=0,lon=+30,model=preetham");
+  ASSERT_TRUE(morning) << morning.error().message;
+  const auto f = morning->value.project(2);
+  EXPECT_GT(f.channel(1)[3], 0);  // from +x, the east
+  // A sum is the sum, and a sky has a ground.
+  const auto sum = parseSource("sky:sun-elevation=30,model=preetham,turbidity=3+uniform:2");
+  ASSERT_TRUE(sum) << sum.error().message;
+  for (const Vec3& s : {Vec3(0, 1, 0), Vec3(0.6f, 0.8f, 0), Vec3(0, -1, 0)}) {
+    const Rgb sky = noon->value.radiance(s);
+    EXPECT_GT(sky.minCoeff(), 0.0f);
+    EXPECT_LT((sum->value.radiance(s) - sky - 2).abs().maxCoeff(), 1e-5f);
+  }
+}
+
+TEST_F(Source, TermsOfSkies) {
+  using Terms = std::vector<std::string_view>;
+  const std::string odd = write("a+b,c.json", "{}");
+  const std::string sky = "sky:utc-offset=+2,altitude=1e+3,atmosphere=" + odd + ",lat=+4";
+  EXPECT_EQ(sourceTerms(sky), Terms{sky});
+  EXPECT_EQ(sourceTerms(sky + "+uniform"), (Terms{sky, "uniform"}));
+  EXPECT_EQ(sourceTerms("sky:lat=1+disc:1,2,3"), (Terms{"sky:lat=1", "disc:1,2,3"}));
+  EXPECT_EQ(sourceTerms("uniform+sky"), (Terms{"uniform", "sky"}));
+  EXPECT_EQ(sourceTerms("sky+uniform"), (Terms{"sky", "uniform"}));
+  EXPECT_EQ(filesOf(sky), std::vector<std::filesystem::path>{odd});
+  EXPECT_TRUE(filesOf("sky:atmosphere=clear,lat=1").empty());
+  EXPECT_EQ(filesOf("cube:a.exr"), std::vector<std::filesystem::path>{"a.exr"});
+  EXPECT_EQ(filesOf("a.exr"), std::vector<std::filesystem::path>{"a.exr"});
+  EXPECT_TRUE(filesOf("disc:1,2,3").empty());
+}
+
+TEST_F(Source, SkiesThatAreNone) {
+  const ErrorKind bad = ErrorKind::BadUsage;
+  expectError("sky", bad, {"'sky'", "KEY=VALUE", "sky:date="});
+  expectError("sky:sun-elevation=30,lat=1", bad, {"one of them", "sky:date="});
+  expectError("sky:sunelevation=30", bad, {"did you mean sun-elevation?"});
+  expectError("sky:sun-elevation=-30", bad, {"night"});
+  expectError("sky:sun-elevation=3,atmosphere=" + path("none.json"), ErrorKind::BadInput,
+              {"none.json"});
+  expectError("sky:sun-elevation=3,atmosphere=" + write("broken.json", "["), ErrorKind::BadInput,
+              {"broken.json"});
+}
+
 TEST_F(Source, Images) {
   image::Image image(8, 4);
   for (int i = 0; i < 32; ++i) image.pixels[i] = Rgb(float(i), 1, 0.5f);
@@ -235,6 +285,7 @@ TEST_F(Source, HelpHasALineForEveryForm) {
   uniform[:RADIANCE]           the same from everywhere
   disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]
                                degrees; azimuth from +x towards +z, elevation from the horizon
+  sky:KEY=VALUE[,…]            a sky with its Sun and ground, by the keys of 'lambent sky': date, time, lat, lon, …
   A+B+…                        the sum of several. RADIANCE is one number or R/G/B.
 )");
 }

@@ -1,10 +1,14 @@
 // shaders/environment.glsl against light::Environment::radiance.
 
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "lambent/light/environment.h"
+#include "lambent/light/skylight.h"
+#include "lambent/light/test_skylight.h"
+#include "lambent/math/directions.h"
 #include "tests/shaders/test_glsl.h"
 
 #include "tests/shaders/glsl_begin.h"
@@ -19,8 +23,12 @@ vec3 latLongTexel(sampler2D picture, ivec2 texel) {
   const float* rgb = picture->rgb + 3 * (texel.y * picture->size.x + texel.x);
   return {rgb[0], rgb[1], rgb[2]};
 }
+sampler2D sky = nullptr;
+
 vec3 radianceOfMaps(vec3 d) {
-  return map ? sampleLatLong(map, mapFromEnvironment * d) : vec3(0.0f);
+  vec3 sum = map ? sampleLatLong(map, mapFromEnvironment * d) : vec3(0.0f);
+  if (sky) sum += sampleSkylight(sky, d);
+  return sum;
 }
 }  // namespace lambent::glsl::seen
 
@@ -42,6 +50,27 @@ void show(const Environment::Parts& parts, const Mat3& environmentFromWorld) {
     const auto& disc = parts.discs[k];
     seen::discs[k] = vec4(from(disc.axis), float(disc.versine));
     seen::discRadiances[k] = from(disc.radiance);
+    seen::discDarkenings[k] = from(disc.darkening);
+    seen::discHorizons[k] = vec4(from(disc.up), float(disc.horizon));
+  }
+  static Picture skyPicture;
+  static std::vector<Rgb> skyTexels;
+  seen::sky = nullptr;
+  if (parts.sky) {
+    constexpr int kWidth = 512, kHeight = 256;
+    skyTexels.clear();
+    const double horizon = parts.sky->light->horizon();
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double v = 1 - y / (kHeight - 1.0);
+        skyTexels.push_back(parts.sky->light->radiance(math::directionFromAzimuthElevation(
+            2 * kPi * ((x + 0.5) / kWidth - 0.5), horizon + (kPi / 2 - horizon) * v * v)));
+      }
+    skyPicture = {ivec2(kWidth, kHeight), skyTexels[0].data()};
+    seen::sky = &skyPicture;
+    const Vec3 up = parts.sky->worldFromSky.col(1);
+    seen::skylightFromEnvironment = from(Mat3(parts.sky->worldFromSky.transpose()));
+    seen::skylightHorizon = vec4(from(up), float(parts.sky->horizon));
   }
   static Picture picture;
   seen::map = nullptr;
@@ -54,9 +83,13 @@ void show(const Environment::Parts& parts, const Mat3& environmentFromWorld) {
 
 /// Whether a rounded direction could lie on either side of a disc's border.
 bool isOnABorder(const Environment::Parts& parts, const Vec3& d) {
+  if (parts.sky &&
+      std::abs(double(d.dot(parts.sky->worldFromSky.col(1))) - parts.sky->horizon) < 1e-6)
+    return true;
   for (const auto& disc : parts.discs) {
     const double off = (d - disc.axis).cast<double>().squaredNorm();
     if (std::abs(off - 2 * disc.versine) < 1e-6 * std::sqrt(disc.versine)) return true;
+    if (std::abs(double(d.dot(disc.up)) - disc.horizon) < 1e-6) return true;
   }
   return false;
 }
@@ -116,6 +149,33 @@ TEST(EnvironmentText, DiscsAreTheLibrarys) {
   expectSame(sum, 3, 2e-6f);
   expectSame(sum, 4, 2e-6f, sun, 0.1f);
   expectSame(sum, 5, 2e-6f, sun, 0.008f);
+}
+
+// One that stands free, and one that is half set.
+TEST(EnvironmentText, DarkenedDiscsAreTheLibrarys) {
+  for (const double elevation : {0.4, 0.01}) {
+    const Vec3 sun = math::directionFromAzimuthElevation(1, elevation).cast<float>();
+    const Environment light = Environment::disc({.direction = sun,
+                                                 .angularDiameter = 0.1,
+                                                 .irradiance = Rgb(0.003f, 0.002f, 0.001f),
+                                                 .darkening = Rgb(0.5f, 0.6f, 0.7f),
+                                                 .horizon = 0});
+    // At the rim the root of what is left of the radius grows without bound.
+    expectSame(light, 6, 2e-3f, sun, 0.08f);
+    expectSame(light, 7, 1e-5f, sun, 0.02f);
+  }
+}
+
+TEST(EnvironmentText, SkyAndGroundAreTheLibrarys) {
+  for (const double horizon : {-0.1, 0.0, 0.2})
+    for (const Mat3& turn : {Mat3(Mat3::Identity()), math::randomRotation(8)}) {
+      const Environment light =
+          Environment::skylight(std::make_shared<light::test::Glow>(horizon, Rgb(1, 2, 3)), turn) +
+          Environment::ground(turn.col(1), horizon, Rgb(0.3f, 0.2f, 0.1f));
+      expectSame(light, 8, 1e-3f);
+      const Vec3 level = math::directionFromAzimuthElevation(0.3, horizon).cast<float>();
+      expectSame(light, 9, 1e-3f, turn * level, 1e-3f);
+    }
 }
 
 TEST(EnvironmentText, AFullDiscIsEverywhere) {

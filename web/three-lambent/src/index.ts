@@ -21,7 +21,7 @@ export {
   type WindowName,
 } from "./light/light.js";
 export type { EquirectangularImage } from "./light/equirectangular.js";
-export { kMostDiscs, type Environment } from "./materials/environment-uniforms.js";
+export { kMostDiscs, type Environment, type EnvironmentSky } from "./materials/environment-uniforms.js";
 export { EnvironmentBackground } from "./output/background.js";
 export { ToneMapper } from "./output/tone-mapper.js";
 export { filmic, srgbDecode, srgbEncode, toneGlsl, type ToneCurve } from "./output/tone.js";

@@ -125,6 +125,60 @@ describe("three's light probe", () => {
   });
 });
 
+describe("discs that are a Sun or a ground", () => {
+  const radiance = [1, 2, 3];
+  const limbDarkening = [0, 0.6, 1];
+
+  /** Coefficients of 4 bands by points of equal area over the disc. */
+  function sampled(axis, diameter, isSeen) {
+    const kRings = 300;
+    const [u, v] = [new Vector3(0, 1, 0).cross(axis).normalize(), new Vector3()];
+    v.crossVectors(axis, u);
+    const out = new Float64Array(48);
+    const versine = 2 * Math.sin(diameter / 4) ** 2;
+    const area = (2 * Math.PI * versine) / (kRings * 4 * kRings);
+    const s = new Vector3();
+    for (let i = 0; i < kRings; ++i)
+      for (let k = 0; k < 4 * kRings; ++k) {
+        const t = (i + 0.5) / kRings;
+        const turn = (Math.PI * (k + 0.5)) / (2 * kRings);
+        const cosine = 1 - versine * t;
+        const sine = Math.sqrt(1 - cosine * cosine);
+        s.copy(axis).multiplyScalar(cosine);
+        s.addScaledVector(u, sine * Math.cos(turn)).addScaledVector(v, sine * Math.sin(turn));
+        if (!isSeen(s)) continue;
+        const y = evaluateHarmonics(4, s.x, s.y, s.z);
+        for (let c = 0; c < 3; ++c) {
+          const value = radiance[c] * (1 - limbDarkening[c] * (1 - Math.sqrt(1 - t))) * area;
+          for (let j = 0; j < 16; ++j) out[3 * j + c] += value * y[j];
+        }
+      }
+    return out;
+  }
+
+  it("darken towards the limb, and set", () => {
+    for (const elevation of [0.4, 0.001, -0.002]) {
+      const direction = new Vector3(Math.cos(elevation), Math.sin(elevation), 0);
+      const horizon = { up: new Vector3(0, 1, 0), elevation: 0 };
+      const disc = { direction, diameter: 0.0093, radiance, limbDarkening, horizon };
+      const light = new LambentLight(4).addDisc(disc);
+      const expected = sampled(direction, disc.diameter, (s) => s.y >= 0);
+      const whole = Math.max(...expected);
+      light.coefficients.forEach((v, i) => close(v, expected[i], 2e-4 * whole, `${i}`));
+    }
+  });
+
+  it("a ground is what a horizon leaves of a disc over everything", () => {
+    const down = new Vector3(0, -1, 0);
+    const horizon = { up: down, elevation: 0.1 };
+    const ground = { direction: down, diameter: 2 * Math.PI, radiance, horizon };
+    const cap = { direction: down, diameter: Math.PI - 0.2, radiance };
+    const light = new LambentLight(5).addDisc(ground);
+    const expected = new LambentLight(5).addDisc(cap);
+    light.coefficients.forEach((v, i) => close(v, expected.coefficients[i], 1e-12));
+  });
+});
+
 describe("sums and windows", () => {
   it("adds, scales, copies, cuts bands", () => {
     const disc = { direction: new Vector3(0, 1, 0), diameter: 1, radiance: [1, 1, 1] };

@@ -47,6 +47,11 @@ function termOf(text: string): Term {
       throw new Error(`light '${text}': a diameter is above 0 and up to 360 degrees`);
     return { kind, azimuth: azimuth!, elevation: elevation!, diameter: diameter!, radiance: color };
   }
+  if (kind === "sky")
+    throw new Error(
+      `light '${text}': this page makes no skies; the native viewer (lambent view) and ` +
+        "lambent render show it",
+    );
   return { kind: "file", name: text };
 }
 

@@ -1,7 +1,9 @@
-// The map of environment.glsl, which stands before this text. Three keeps its lowest row at v = 0.
+// The maps of environment.glsl, which stands before this text. Three keeps their lowest row at v = 0.
 
 uniform sampler2D environmentMap;
 uniform bool hasEnvironmentMap;
+uniform sampler2D environmentSky;
+uniform bool hasEnvironmentSky;
 uniform float environmentIntensity;
 
 vec3 latLongTexel(sampler2D map, ivec2 texel) {
@@ -9,5 +11,8 @@ vec3 latLongTexel(sampler2D map, ivec2 texel) {
 }
 
 vec3 radianceOfMaps(vec3 d) {
-  return hasEnvironmentMap ? environmentIntensity * sampleLatLong(environmentMap, d) : vec3(0.0);
+  vec3 sum = vec3(0.0);
+  if (hasEnvironmentMap) sum += environmentIntensity * sampleLatLong(environmentMap, d);
+  if (hasEnvironmentSky) sum += sampleSkylight(environmentSky, d);
+  return sum;
 }

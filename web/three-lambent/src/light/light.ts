@@ -4,7 +4,7 @@ import type { LightProbe, Texture } from "three";
 import { bandsOf, coefficientCount, evaluateHarmonics, kMaxBands } from "../sh/basis.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
 import { hannWindow, lanczosWindow, minimalRingingWindow } from "../sh/window.js";
-import { capMoments, turnZonal } from "../sh/zonal.js";
+import { addDisc } from "./disc.js";
 import { projectEquirectangular, type EquirectangularImage } from "./equirectangular.js";
 import { imageOfTexture } from "./texture-pixels.js";
 
@@ -23,14 +23,21 @@ export interface QuaternionLike extends DirectionLike {
   w: number;
 }
 
-/** A disc of constant radiance, far away. */
+/** A disc far away: of constant radiance, or darker towards its limb and cut by a horizon. */
 export interface Disc {
   /** Towards it, away from the scene. Need not be of unit length. */
   direction: DirectionLike;
   /** Angular diameter, radians, 0 … 2π. */
   diameter: number;
-  /** Radiance of every point of it. */
+  /** Radiance of every point of it, or of its centre. */
   radiance: Rgb;
+  /** u, 0 … 1: the radiance is that of the centre · (1 − u (1 − μ)), μ = √(1 − (θ/radius)²). */
+  limbDarkening?: Rgb;
+  /**
+   * It is seen where a direction is at this elevation about `up` or above it. A disc that is cut
+   * has a diameter of at most 0.2, or of 2π: that is a ground, with `up` pointing down.
+   */
+  horizon?: { up: DirectionLike; elevation: number };
 }
 
 /** How high bands are attenuated against ringing; W in bands. */
@@ -145,17 +152,14 @@ export class LambentLight {
   }
 
   /** Adds a disc, in closed form. One without extent adds nothing. */
-  addDisc({ direction, diameter, radiance }: Disc): this {
+  addDisc({ direction, diameter, ...rest }: Disc): this {
     const { x, y, z } = direction;
     const length = Math.hypot(x, y, z);
     if (!(length > 0) || !(diameter >= 0 && diameter <= 2 * Math.PI * (1 + 1e-12)))
       throw new RangeError(
         `LambentLight: a disc of ${diameter} radians towards (${x}, ${y}, ${z}) cannot be`,
       );
-    const moments = capMoments(this.bands, Math.min(diameter / 2, Math.PI));
-    const zonal = turnZonal(moments, x / length, y / length, z / length);
-    for (let i = 0; i < zonal.length; ++i)
-      for (let c = 0; c < 3; ++c) this.coefficients[3 * i + c] += zonal[i] * radiance[c];
+    addDisc(this.coefficients, this.bands, { direction, diameter, ...rest });
     return this.touch();
   }
 

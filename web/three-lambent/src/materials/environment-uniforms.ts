@@ -13,7 +13,7 @@ import {
   type Texture,
 } from "three";
 import { environment, environmentMap, kMostDiscs } from "../generated/shaders.js";
-import type { Disc, QuaternionLike, Rgb } from "../light/light.js";
+import type { DirectionLike, Disc, QuaternionLike, Rgb } from "../light/light.js";
 
 export { kMostDiscs };
 
@@ -35,12 +35,36 @@ export interface Environment {
   discs?: readonly Disc[];
   /** Radiance from everywhere, beside the rest. */
   uniform?: Rgb;
+  /** What is seen above a horizon, however far one looks into it: a sky. */
+  sky?: EnvironmentSky | null;
 }
+
+/** A sky above a horizon, smooth but for where it ends. */
+export interface EnvironmentSky {
+  /**
+   * Columns as of a latitude-longitude map. Rows as three keeps a texture (no flipY): the last is
+   * the zenith, the first the horizon itself, row r of n the elevation
+   * horizon + (π/2 − horizon) (r/(n − 1))².
+   */
+  texture: Texture;
+  /** Elevation of the horizon, radians. Default 0. */
+  horizon?: number;
+  /** worldFromSky: its own frame has +y up. */
+  rotation?: QuaternionLike;
+}
+
+const turnOf = (q: QuaternionLike = { x: 0, y: 0, z: 0, w: 1 }) =>
+  new Quaternion(q.x, q.y, q.z, q.w).normalize();
+const matrixOf = (q: Quaternion) =>
+  new Matrix3().setFromMatrix4(new Matrix4().makeRotationFromQuaternion(q));
 
 /** The uniforms of environmentGlsl, shared by all materials that show one environment. */
 export class EnvironmentUniforms {
   private readonly none: DataTexture;
-  private copy: Texture | null = null;
+  private readonly copies = new Map<
+    "environmentMap" | "environmentSky",
+    { texture: Texture; version: number }
+  >();
   readonly uniforms;
 
   constructor() {
@@ -55,31 +79,54 @@ export class EnvironmentUniforms {
       discCount: { value: 0 },
       discs: { value: Array.from({ length: kMostDiscs }, () => new Vector4(0, 0, 1, 0)) },
       discRadiances: { value: Array.from({ length: kMostDiscs }, () => new Vector3()) },
+      discDarkenings: { value: Array.from({ length: kMostDiscs }, () => new Vector3()) },
+      discHorizons: { value: Array.from({ length: kMostDiscs }, () => new Vector4(0, 0, 0, -1)) },
+      environmentSky: { value: this.none as Texture },
+      hasEnvironmentSky: { value: false },
+      skylightFromEnvironment: { value: new Matrix3() },
+      skylightHorizon: { value: new Vector4(0, 1, 0, 0) },
     };
   }
 
   /** @throws RangeError for more discs than can be shown */
   set(environment: Environment | null): void {
-    const { texture = null, rotation, intensity = 1, discs = [], uniform } = environment ?? {};
+    const { texture = null, intensity = 1, discs = [], uniform } = environment ?? {};
     if (discs.length > kMostDiscs)
       throw new RangeError(
         `three-lambent: ${discs.length} discs, where ${kMostDiscs} can be shown`,
       );
     const u = this.uniforms;
-    this.use(texture);
+    this.use("environmentMap", texture);
     u.hasEnvironmentMap.value = texture !== null;
     u.environmentIntensity.value = intensity;
     u.everywhere.value.set(...(uniform ?? ([0, 0, 0] as const)));
-    const q = rotation ?? { x: 0, y: 0, z: 0, w: 1 };
-    const turned = new Quaternion(q.x, q.y, q.z, q.w).normalize().invert();
-    u.environmentFromWorld.value.setFromMatrix4(new Matrix4().makeRotationFromQuaternion(turned));
+    const turned = turnOf(environment?.rotation).invert();
+    u.environmentFromWorld.value.copy(matrixOf(turned));
+    const inEnvironment = ({ x, y, z }: DirectionLike) =>
+      new Vector3(x, y, z).normalize().applyQuaternion(turned);
+    const sky = environment?.sky ?? null;
+    this.use("environmentSky", sky?.texture ?? null);
+    u.hasEnvironmentSky.value = sky !== null;
+    if (sky) {
+      const worldFromSky = turnOf(sky.rotation);
+      const up = new Vector3(0, 1, 0).applyQuaternion(worldFromSky).applyQuaternion(turned);
+      u.skylightHorizon.value.set(up.x, up.y, up.z, Math.sin(sky.horizon ?? 0));
+      const worldFromEnvironment = turned.clone().invert();
+      u.skylightFromEnvironment.value.copy(
+        matrixOf(worldFromSky.invert().multiply(worldFromEnvironment)),
+      );
+    }
     u.discCount.value = discs.length;
     discs.forEach((disc, i) => {
-      const { x, y, z } = disc.direction;
-      const axis = new Vector3(x, y, z).normalize().applyQuaternion(turned);
+      const axis = inEnvironment(disc.direction);
       const sine = Math.sin(disc.diameter / 4);
       u.discs.value[i].set(axis.x, axis.y, axis.z, 2 * sine * sine);
       u.discRadiances.value[i].set(...disc.radiance);
+      u.discDarkenings.value[i].set(...(disc.limbDarkening ?? ([0, 0, 0] as const)));
+      if (disc.horizon) {
+        const up = inEnvironment(disc.horizon.up);
+        u.discHorizons.value[i].set(up.x, up.y, up.z, Math.sin(disc.horizon.elevation));
+      } else u.discHorizons.value[i].set(0, 0, 0, -1);
     });
   }
 
@@ -87,26 +134,30 @@ export class EnvironmentUniforms {
    * A texture of floats with linear filters is incomplete, and so black, where the device cannot
    * filter floats. Filters do not matter here: the shader takes single texels.
    */
-  private use(texture: Texture | null): void {
-    if (this.copy?.source === texture?.source && this.copy) {
-      this.uniforms.environmentMap.value = this.copy;
+  private use(name: "environmentMap" | "environmentSky", texture: Texture | null): void {
+    const copy = this.copies.get(name);
+    if (copy && copy.texture.source === texture?.source) {
+      if (copy.version !== texture.version) copy.texture.needsUpdate = true;
+      copy.version = texture.version;
+      this.uniforms[name].value = copy.texture;
       return;
     }
-    this.copy?.dispose();
-    this.copy = null;
+    copy?.texture.dispose();
+    this.copies.delete(name);
     let shown = texture ?? this.none;
     if (texture?.type === FloatType && texture.magFilter !== NearestFilter) {
-      this.copy = texture.clone();
-      this.copy.minFilter = this.copy.magFilter = NearestFilter;
-      this.copy.generateMipmaps = false;
-      this.copy.needsUpdate = true;
-      shown = this.copy;
+      const made = texture.clone();
+      made.minFilter = made.magFilter = NearestFilter;
+      made.generateMipmaps = false;
+      made.needsUpdate = true;
+      this.copies.set(name, { texture: made, version: texture.version });
+      shown = made;
     }
-    this.uniforms.environmentMap.value = shown;
+    this.uniforms[name].value = shown;
   }
 
   dispose(): void {
-    this.copy?.dispose();
+    for (const { texture } of this.copies.values()) texture.dispose();
     this.none.dispose();
   }
 }

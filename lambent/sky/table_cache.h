@@ -1,0 +1,19 @@
+// Tables of skies that stay on disk between runs.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "lambent/sky/sky_table.h"
+
+namespace lambent::sky {
+
+/// Nothing if the folder is empty (""), or holds no table of this atmosphere and altitude that can
+/// be trusted.
+std::optional<SkyTable> readTable(const std::filesystem::path& folder, const Atmosphere& atmosphere,
+                                  double altitude);
+/// Makes the folder if it must. Ok if the folder is "".
+Status keepTable(const std::filesystem::path& folder, const Atmosphere& atmosphere,
+                 const SkyTable& table);
+
+}  // namespace lambent::sky
