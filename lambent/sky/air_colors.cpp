@@ -30,13 +30,12 @@ std::vector<double> cubicWeights(std::span<const double> nodes, double at) {
 /// RGB of radiances relative to the Sun's irradiance.
 Eigen::Matrix3Xd rgbWeights(std::span<const double> wavelengths, const Atmosphere& atmosphere) {
   std::vector<double> fine;
-  for (double nm = wavelengths.front(); nm < wavelengths.back(); nm += 5) fine.push_back(nm);
+  for (double nm = wavelengths.front(); nm < wavelengths.back(); nm += 1) fine.push_back(nm);
   fine.push_back(wavelengths.back());
   const radiometry::XyzvWeights eye = radiometry::xyzvWeights(fine);
   Eigen::Matrix3Xd weights = Eigen::Matrix3Xd::Zero(3, Eigen::Index(wavelengths.size()));
   for (std::size_t k = 0; k < fine.size(); ++k) {
-    const double sun = atmosphere.solarIrradiance ? atmosphere.solarIrradiance->at(fine[k])
-                                                  : radiometry::solarIrradiance(fine[k]);
+    const double sun = solarIrradianceOf(atmosphere, fine[k]);
     const Eigen::Array3d rgb =
         radiometry::linearRgbOf(radiometry::Xyzv(eye.col(Eigen::Index(k)).array() * sun));
     const std::vector<double> between = cubicWeights(wavelengths, fine[k]);

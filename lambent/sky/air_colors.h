@@ -10,7 +10,7 @@ namespace lambent::sky {
 
 /// What makes colours of what a Scattering answers. Its spectra, of light relative to the Sun's above
 /// the air and of transmittance, are smooth: between wavelengths they are cubic, while the Sun's own
-/// spectrum and the eye's functions are integrated every 5 nm. 16 wavelengths over 380-740 nm then do
+/// spectrum and the eye's functions are integrated every nm. 16 wavelengths over 380-740 nm then do
 /// (aerial_perspective_test.cpp holds them to 73).
 class AirColors {
  public:
