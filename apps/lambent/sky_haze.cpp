@@ -73,6 +73,7 @@ Result<image::Image> hazyPicture(const HazeArguments& haze, const MapArguments& 
   options.worldFromSun = resolved.worldFromSun;
   options.depth = haze.along;
   options.metres = haze.metres;
+  if (const Status fits = sky::checkHaze(*color, *depth, options); !fits) return fits.error();
 
   const auto air = sky::makeAerialPerspective(resolved.options, haze.form, console.progress());
   if (!air) return air.error();

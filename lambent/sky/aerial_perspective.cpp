@@ -43,15 +43,14 @@ AirBetween ExactAir::at(const Vec3d& direction, double distance) const {
   const double towardsSun = std::clamp(direction.dot(sun_), -1.0, 1.0);
   const RayInAir ray{viewer_.altitude, std::clamp(direction.y(), -1.0, 1.0),
                      kPi / 2 - viewer_.sunElevation, towardsSun};
-  AirLight light = scattering_.along(ray, distance);
-  const Medium& medium = scattering_.medium();
+  AirStretches light;
+  const double ends[] = {std::min(distance, kEndless)};
+  scattering_.upTo(ray, ends, 5, light);
   const double air = media::evaluate(media::RayleighPhase{}, towardsSun);
-  const double aerosol = media::evaluate(medium.aerosolPhase, towardsSun);
-  for (std::size_t i = 0; i < light.air.size(); ++i) {
+  const double aerosol = media::evaluate(scattering_.medium().aerosolPhase, towardsSun);
+  for (std::size_t i = 0; i < light.air.size(); ++i)
     light.air[i] = air * light.air[i] + aerosol * light.aerosol[i];
-    light.transmittance[i] = -std::log(std::max(light.transmittance[i], 1e-35));
-  }
-  return {1 - colors_.lost(light.transmittance), colors_.radiance(light.air),
+  return {1 - colors_.lost(light.depth), colors_.radiance(light.air),
           colors_.radiance(light.multiple)};
 }
 

@@ -46,7 +46,7 @@ class ExactAir {
  public:
   /// The atmosphere is the one that was solved; it knows the spectrum of the Sun.
   ExactAir(Scattering scattering, const Atmosphere& atmosphere, const ViewerInAir& viewer);
-  /// A ray that meets the ground ends there.
+  /// Below the ground the air goes on as it is on it: there are valleys.
   AirBetween at(const Vec3d& direction, double distance) const;
 
  private:

@@ -186,8 +186,10 @@ TEST(ExactAir, OfAllTheAirIsTheSky) {
         const Eigen::Array3d sky = colors.radiance(scattering.radiance(ray));
         // Below the horizon the ground is seen through the air before it.
         const Eigen::Array3d ground = colors.radiance(scattering.along(ray).ground);
-        const Eigen::Array3d in = air.at(direction, kEndless).inScattered();
-        EXPECT_LT((in + ground - sky).abs().maxCoeff(), 1e-5 * sky.abs().maxCoeff())
+        const double end =
+            scattering.medium().shell.toGround(altitude, direction.y()).value_or(kEndless);
+        const Eigen::Array3d in = air.at(direction, end).inScattered();
+        EXPECT_LT((in + ground - sky).abs().maxCoeff(), 2e-3 * sky.abs().maxCoeff())
             << altitude << ' ' << sun << ' ' << elevation;
         EXPECT_EQ(elevation<0, ground.maxCoeff()> 0);
       }
@@ -209,6 +211,22 @@ TEST(ExactAir, GrowsWithDistance) {
       before = now;
     }
   }
+}
+
+TEST(ExactAir, GoesOnInValleys) {
+  // Someone on the ground looks into a valley: the air is everywhere as at the viewer.
+  const ViewerInAir viewer{0, 30 * kDegree};
+  const ExactAir exact = exactAir(viewer);
+  const AirTable table(coarselySolved(), clearAir(), viewer);
+  const ConstantAir constant = constantAir(coarselySolved(), clearAir(), viewer);
+  for (const double elevation : {-0.02, -0.3, -1.2})
+    for (const double distance : {100.0, 1500.0, 6000.0}) {
+      const Vec3d down = towards(elevation, 2);
+      const AirBetween a = exact.at(down, distance), b = table.at(down, distance);
+      EXPECT_LT((a.extinction - constant.at(down, distance).extinction).abs().maxCoeff(), 0.01);
+      EXPECT_LT((a.extinction - b.extinction).abs().maxCoeff(), 0.01);
+      EXPECT_LT((b.inScattered() / a.inScattered() - 1).abs().maxCoeff(), 0.015);
+    }
 }
 
 /// How far a table is from the integral: of in-scattered light relative to its largest channel.

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kNothingStands = 1e9;  // m
 
-Status checkPictures(const image::Image& color, const image::Image& depth,
-                     const HazeOptions& options) {
+}  // namespace
+
+Status checkHaze(const image::Image& color, const image::Image& depth, const HazeOptions& options) {
   const PictureShape& shape = options.shape;
   if (color.width != depth.width || color.height != depth.height)
     return report::badUsage(
@@ -30,12 +31,10 @@ Status checkPictures(const image::Image& color, const image::Image& depth,
   return checkShape(shape);
 }
 
-}  // namespace
-
 Result<image::Image> haze(const image::Image& color, const image::Image& depth,
                           const AerialPerspective& air, const HazeOptions& options,
                           const Progress& progress) {
-  if (Status fits = checkPictures(color, depth, options); !fits) return fits.error();
+  if (Status fits = checkHaze(color, depth, options); !fits) return fits.error();
   const PictureShape& shape = options.shape;
   const Mat3d sunFromWorld = options.worldFromSun.transpose();
   const Vec3d axis =

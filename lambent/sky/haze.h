@@ -28,13 +28,16 @@ struct HazeOptions {
   BelowHorizon below = BelowHorizon::Dome;  ///< of the backdrop
 };
 
+/// BadUsage: pictures of another size than the shape's, depth along the axis of another map than a
+/// camera's, a unit that is not above 0.
+Status checkHaze(const image::Image& color, const image::Image& depth, const HazeOptions& options);
+
 /// L_s = f L_0 + L_in for every pixel. `depth` has the depth in its first channel; where that is not
 /// above 0, not finite or 10⁹ m or more, nothing stands. A pixel that something covers in part (alpha)
 /// gets as much of the air; the backdrop covers the rest. A sum outside of Rec. 709 is brought into it
 /// (withinGamut()).
 ///
-/// BadUsage: pictures of another size than the shape's, depth along the axis of another map than a
-/// camera's, a scale that is not above 0; Cancelled.
+/// BadUsage: see checkHaze(); Cancelled.
 Result<image::Image> haze(const image::Image& color, const image::Image& depth,
                           const AerialPerspective& air, const HazeOptions& options,
                           const Progress& progress = {});

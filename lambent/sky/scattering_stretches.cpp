@@ -9,6 +9,12 @@
 namespace lambent::sky {
 namespace {
 
+/// No path is followed farther below the ground, m: it is dark there.
+constexpr double kDeepest = 3e6;
+/// Most pieces of a stretch below the ground, and their length, m.
+constexpr int kMostPieces = 64;
+constexpr double kPiece = 2e4;
+
 /// Lets a path that ended on the ground go on to the last of the distances.
 void goOnBelowGround(const Medium& medium, std::span<const double> ends, int nodes, AirPath& path) {
   const math::Quadrature rule = math::gaussLegendre(nodes, 0, 1);
@@ -16,20 +22,24 @@ void goOnBelowGround(const Medium& medium, std::span<const double> ends, int nod
   for (int part = 0; part < kParts; ++part) density[part] = medium.profiles[part].at(0);
   const double ground = path.end;
   double from = ground;
-  for (const double to : ends) {
+  for (const double end : ends) {
+    const double to = std::min(end, ground + kDeepest);
     if (to <= from) continue;
-    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-      AirPath::Node node{};
-      node.distance = from + rule.nodes[i] * (to - from);
-      node.weight = rule.weights[i] * (to - from);
-      node.horizon = kPi / 2;
-      for (int part = 0; part < kParts; ++part) {
-        node.density[part] = float(density[part]);
-        node.length[part] =
-            float(double(path.length[part]) + density[part] * (node.distance - ground));
+    const int pieces = std::clamp(int(std::ceil((to - from) / kPiece)), 1, kMostPieces);
+    const double length = (to - from) / pieces;
+    for (int piece = 0; piece < pieces; ++piece)
+      for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+        AirPath::Node node{};
+        node.distance = from + (piece + rule.nodes[i]) * length;
+        node.weight = rule.weights[i] * length;
+        node.horizon = kPi / 2;
+        for (int part = 0; part < kParts; ++part) {
+          node.density[part] = float(density[part]);
+          node.length[part] =
+              float(double(path.length[part]) + density[part] * (node.distance - ground));
+        }
+        path.nodes.push_back(node);
       }
-      path.nodes.push_back(node);
-    }
     from = to;
   }
 }
