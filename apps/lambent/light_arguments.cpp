@@ -41,7 +41,7 @@ void LightArguments::addWindowTo(CLI::App& app) {
 Result<light::Environment> LightArguments::environment(const ReadingArguments& reading,
                                                        Console& console) const {
   auto parsed =
-      console.stage("light", [&] { return sources::parseSource(source, reading.forSource()); });
+      console.stage("light", [&] { return sources::parseSource(source, reading.forSource(console.progress())); });
   if (!parsed) return parsed.error();
   console.report(parsed->findings);
   if (rotateY == 0.0) return std::move(parsed->value);

@@ -28,7 +28,9 @@ struct ReadingArguments {
   asset::ReadOptions forAsset() const { return {allowOutside, memoryLimit}; }
   image::ReadOptions forImage() const { return {memoryLimit}; }
   scene_io::LoadOptions forScene() const { return {allowOutside, memoryLimit}; }
-  sources::SourceOptions forSource() const { return {.memoryLimit = memoryLimit}; }
+  sources::SourceOptions forSource(Progress progress) const {
+    return {.memoryLimit = memoryLimit, .progress = std::move(progress)};
+  }
 };
 
 }  // namespace lambent::tool

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 #include "lambent/file/atomic_file.h"
 
@@ -311,7 +312,7 @@ void AtArguments::addTo(CLI::App& app) {
   addParsed(app, "--wavelengths", wavelengths, parseWavelengths,
             "Rows have spectral radiance in W/m²/sr/nm at these, 340 to 740, rising, besides "
             "luminance in cd/m². With --quantity spectral: the channels (default: every 10)")
-      ->option_text("NM,NM,…")
+      ->option_text("NM,NM")
       ->group("Numbers");
   app.add_flag("--magnitudes", magnitudes,
                "Luminance also in magnitudes per square arcsecond, as observers of the night sky "

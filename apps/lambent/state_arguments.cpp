@@ -53,7 +53,7 @@ Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
     camera = *named;
   }
   const auto parsed = console.stage("light", [&] {
-    return sources::parseSource(state.environment, options.reading.forSource());
+    return sources::parseSource(state.environment, options.reading.forSource(console.progress()));
   });
   if (!parsed) return parsed.error();
   console.report(parsed->findings);

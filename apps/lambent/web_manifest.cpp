@@ -40,7 +40,7 @@ Status addPage(const fs::path& page, ServedFiles& files) {
 /// A map of another kind than latitude and longitude, as an .exr in that.
 Result<std::string> resampled(const std::string& term, int height,
                               const ReadingArguments& reading) {
-  const auto parsed = sources::parseSource(term, reading.forSource());
+  const auto parsed = sources::parseSource(term, reading.forSource({}));
   if (!parsed) return parsed.error();
   image::Image map(2 * height, height);
   const image::MapShape shape{image::MapKind::LatLong, map.width, map.height};
@@ -124,7 +124,8 @@ Result<ServedFiles> filesToServe(const fs::path& page, const fs::path& asset,
     const auto light = console.stage("light", [&] {
       return sources::parseSource(environments[k],
                                   {.notFinite = sources::SourceOptions::NotFinite::Repair,
-                                   .memoryLimit = reading.memoryLimit});
+                                   .memoryLimit = reading.memoryLimit,
+                                   .progress = console.progress()});
     });
     if (!light) return light.error();
     console.report(light->findings);

@@ -16,10 +16,12 @@ std::string lowerExtension(const std::filesystem::path& path) {
   return extension;
 }
 
-Result<Loaded> readEnvironment(const std::string& source, const asset::ReadOptions& reading) {
+Result<Loaded> readEnvironment(const std::string& source, const asset::ReadOptions& reading,
+                               const std::stop_token& stop) {
   auto parsed = sources::parseSource(
-      source,
-      {.notFinite = sources::SourceOptions::NotFinite::Repair, .memoryLimit = reading.memoryLimit});
+      source, {.notFinite = sources::SourceOptions::NotFinite::Repair,
+               .memoryLimit = reading.memoryLimit,
+               .progress = [&](const ProgressUpdate&) { return !stop.stop_requested(); }});
   if (!parsed) return parsed.error();
   return Loaded(LoadedEnvironment{source, std::move(parsed->value), std::move(parsed->findings)});
 }
@@ -88,7 +90,7 @@ void Loader::work(std::stop_token stop) {
         auto asset = viewer::readAsset(request.name, reading);
         result = asset ? Result<Loaded>(Loaded(std::move(*asset))) : Result<Loaded>(asset.error());
       } else {
-        result = viewer::readEnvironment(request.name, reading);
+        result = viewer::readEnvironment(request.name, reading, stop);
       }
     } catch (const std::bad_alloc&) {
       result = report::failed(fmt::format("{}: not enough memory to read it", request.name));

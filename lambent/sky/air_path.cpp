@@ -41,6 +41,14 @@ const Rule& ruleOf(int n) {
 
 }  // namespace
 
+double altitudeRise(double altitude, double height) {
+  return std::pow(std::clamp(altitude / height, 0.0, 1.0), 0.4);
+}
+
+double altitudeOfRise(double rise, double height) {
+  return height * std::pow(rise, 2.5);
+}
+
 AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, double cosine,
                 double end, const std::vector<double>& breaks) {
   const media::Shell& shell = medium.shell;
@@ -93,6 +101,7 @@ AirPath airPath(const Medium& medium, const PathSplit& split, double altitude, d
         node.distance = from + rule.rule.nodes[i] * length;
         node.altitude = std::max(0.0, shell.altitudeAlong(altitude, cosine, node.distance));
         node.weight = rule.rule.weights[i] * length;
+        node.rise = altitudeRise(node.altitude, shell.height);
         node.horizon = std::acos(shell.horizonCosine(node.altitude));
         for (int part = 0; part < kParts; ++part)
           node.density[part] = float(medium.profiles[part].at(node.altitude));

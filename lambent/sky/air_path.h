@@ -8,6 +8,11 @@
 
 namespace lambent::sky {
 
+/// Where an altitude lies between the ground (0) and the top (1) on an axis that crowds at the
+/// ground: the nodes of tables are even on it.
+double altitudeRise(double altitude, double height);
+double altitudeOfRise(double rise, double height);
+
 /// Farther than any path goes, m.
 inline constexpr double kEndless = 1e12;
 
@@ -15,6 +20,7 @@ struct AirPath {
   struct Node {
     double distance, altitude, weight;  ///< m
     double horizon;                     ///< zenith angle of it, rad
+    double rise;                        ///< altitudeRise() of the altitude
     float density[kParts];
     float length[kParts];  ///< optical lengths from the origin to here, m
   };

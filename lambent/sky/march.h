@@ -52,9 +52,14 @@ using MarchKernel = void (*)(const MarchTables& tables, const MarchNode* nodes, 
 /// exp of kLanes numbers, good to 2 units in the last place of a float; 0 below −87.
 using ExpKernel = void (*)(const float* x, float* out);
 
+/// out[r] = Σ weights[r · count + i] · in[i], kLanes for every item.
+using WeighKernel = void (*)(const float* weights, int rows, int count, const float* in,
+                             float* out);
+
 struct MarchKernels {
   MarchKernel march;
   ExpKernel exp;
+  WeighKernel weigh;
 };
 
 namespace baseline {

@@ -117,10 +117,39 @@ void expOfLanes(const float* x, float* out) {
   for (int lane = 0; lane < kLanes; lane += kNative) store(out + lane, exponential(load(x + lane)));
 }
 
+void weigh(const float* weights, int rows, int count, const float* in, float* out) {
+  for (int lane = 0; lane < kLanes; lane += kNative) {
+    // Four rows at a time share what they read.
+    int row = 0;
+    for (; row + 4 <= rows; row += 4) {
+      const float* w = weights + long(row) * count;
+      V a = {}, b = {}, c = {}, d = {};
+      for (int i = 0; i < count; ++i) {
+        const V x = load(in + long(i) * kLanes + lane);
+        a += w[i] * x;
+        b += w[count + i] * x;
+        c += w[2 * count + i] * x;
+        d += w[3 * count + i] * x;
+      }
+      float* to = out + long(row) * kLanes + lane;
+      store(to, a);
+      store(to + kLanes, b);
+      store(to + 2 * kLanes, c);
+      store(to + 3 * kLanes, d);
+    }
+    for (; row < rows; ++row) {
+      V sum = {};
+      for (int i = 0; i < count; ++i)
+        sum += weights[long(row) * count + i] * load(in + long(i) * kLanes + lane);
+      store(out + long(row) * kLanes + lane, sum);
+    }
+  }
+}
+
 }  // namespace
 
 MarchKernels marchKernels() {
-  return {march, expOfLanes};
+  return {march, expOfLanes, weigh};
 }
 
 }  // namespace LAMBENT_ISA

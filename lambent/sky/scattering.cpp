@@ -43,7 +43,7 @@ Resolution Resolution::exact(int refine) {
   r.nodes = 4;
   r.depth = 1 / finer;
   r.cubic = true;
-  r.tolerance = 2e-4 / finer;
+  r.tolerance = 4e-3 / (finer * finer);
   r.orders = 60;
   return r;
 }

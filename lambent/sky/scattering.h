@@ -21,14 +21,14 @@ namespace lambent::sky {
 
 /// How finely light is resolved. Refined, it converges to the light of the medium.
 struct Resolution {
-  double sunDensity = 1;          ///< of the Sun's zenith angles: 1 is 5° by day, 1° in twilight
-  int altitudes = 14;             ///< ≥ 4
-  int upward = 12, downward = 8;  ///< zenith angles of arriving light above and below the horizon
-  int around = 10;                ///< azimuths of it, over half a turn
+  double sunDensity = 1;         ///< of the Sun's zenith angles: 1 is 5° by day, 1° in twilight
+  int altitudes = 12;            ///< ≥ 4
+  int upward = 9, downward = 6;  ///< zenith angles of arriving light above and below the horizon
+  int around = 8;                ///< azimuths of it, over half a turn
   int zeniths = 21, azimuths = 11;  ///< directions of light that goes on, ≥ 4; over half a turn
   int levels = 7;                   ///< of altitude between which rays are split
   int nodes = 3;                    ///< of a ray's piece
-  double depth = 1.5;               ///< most optical thickness of a piece
+  double depth = 2;                 ///< most optical thickness of a piece
   bool cubic = false;               ///< between places; directions always are
   double tolerance = 1e-3;  ///< where a further order adds less than this everywhere it stops
   int orders = 40;          ///< at most

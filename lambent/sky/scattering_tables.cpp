@@ -14,6 +14,20 @@ namespace {
 
 constexpr double kPerDegree = kPi / 180;
 
+/// abramowitz1964handbook, 4.4.46: 2e-8 rad off at most. A quarter of std::acos's time.
+double quickAcos(double cosine) {
+  const double x = std::abs(cosine);
+  const double p =
+      1.5707963050 +
+      x * (-0.2145988016 +
+           x * (0.0889789874 +
+                x * (-0.0501743046 +
+                     x * (0.0308918810 +
+                          x * (-0.0170881256 + x * (0.0066700901 - x * 0.0012624911))))));
+  const double angle = std::sqrt(1 - x) * p;
+  return cosine < 0 ? kPi - angle : angle;
+}
+
 /// A ray's direction and the Sun at a place along it.
 struct LocalFrame {
   double cosine, sunCosine;  ///< of their zenith angles
@@ -57,11 +71,7 @@ double Grid::sunZenith(int node) const {
 }
 
 double Grid::altitude(int node) const {
-  return height * std::pow(double(node) / (altitudes - 1), 2.5);
-}
-
-double Grid::altitudeCoordinate(double at) const {
-  return std::pow(std::clamp(at / height, 0.0, 1.0), 0.4) * (altitudes - 1);
+  return altitudeOfRise(double(node) / (altitudes - 1), height);
 }
 
 Held::Held(const Grid& grid)
@@ -139,8 +149,8 @@ void Scattering::Impl::prepareAgain(const AirPath& path, const RayInAir& ray,
         sines > 1e-9
             ? std::clamp((ray.towardsSun - frame.cosine * frame.sunCosine) / sines, -1.0, 1.0)
             : 1;
-    const Taps suns = taps(grid.sunCoordinate(std::acos(frame.sunCosine)), grid.suns);
-    const Taps rows = taps(grid.altitudeCoordinate(node.altitude), grid.altitudes);
+    const Taps suns = taps(grid.sunCoordinate(quickAcos(frame.sunCosine)), grid.suns);
+    const Taps rows = taps(node.rise * (grid.altitudes - 1), grid.altitudes);
     out.cellCount = 0;
     for (int i = 0; i < suns.count; ++i)
       for (int j = 0; j < rows.count; ++j) {
@@ -149,9 +159,9 @@ void Scattering::Impl::prepareAgain(const AirPath& path, const RayInAir& ray,
         out.cell[out.cellCount] = grid.cell(suns.first + i, rows.first + j);
         out.cellWeight[out.cellCount++] = float(w);
       }
-    const int zenith = directed(std::acos(frame.cosine) / kPi * (grid.zeniths - 1), grid.zeniths,
+    const int zenith = directed(quickAcos(frame.cosine) / kPi * (grid.zeniths - 1), grid.zeniths,
                                 out.zenithWeight);
-    const int azimuth = directed(std::acos(cosAzimuth) / kPi * (grid.azimuths - 1), grid.azimuths,
+    const int azimuth = directed(quickAcos(cosAzimuth) / kPi * (grid.azimuths - 1), grid.azimuths,
                                  out.azimuthWeight);
     out.direction = zenith * grid.azimuthStride() + azimuth;
     const double x2 = sine2 * cosAzimuth * cosAzimuth;

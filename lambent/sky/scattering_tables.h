@@ -26,7 +26,6 @@ struct Grid {
   double sunCoordinate(double zenith) const;
   double sunZenith(int node) const;
   double altitude(int node) const;
-  double altitudeCoordinate(double altitude) const;
 
   int cells() const { return suns * altitudes; }
   int cell(int sun, int altitude) const { return sun * altitudes + altitude; }

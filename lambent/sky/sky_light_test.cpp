@@ -1,7 +1,9 @@
 #include "lambent/sky/sky_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -120,6 +122,30 @@ TEST(SkyLight, ProjectsTheDomeAboveTheHorizon) {
     }
     for (std::size_t k = 0; k < 100; ++k) EXPECT_NEAR(f[100 + k], sum[k], 1e-3 * sum[0]) << k;
     EXPECT_NEAR(f[100], sum[0], 2e-4 * sum[0]);
+  }
+}
+
+// The disc comes up over two thirds of a degree; what it lights grows on as the sky does.
+TEST(SkyLight, RisesWithoutAStep) {
+  std::vector<sh::RgbCoefficients> lights;
+  for (int k = -60; k <= 60; ++k) {
+    const double elevation = 0.01 * k * kPi / 180, radius = 0.00465;
+    const double height = std::clamp(elevation / radius, -1.0, 1.0);
+    const double visible =
+        0.5 + (std::asin(height) + height * std::sqrt(1 - height * height)) / kPi;
+    Sky sky = skyOf(elevation, visible);
+    sky.sun.irradiance *= 0.05 * visible;
+    lights.push_back(environmentOf(sky, towards(1)).project(5));
+  }
+  for (std::size_t k = 1; k + 1 < lights.size(); ++k) {
+    double largest = 0, bend = 0;
+    for (std::size_t i = 0; i < lights[k].values.size(); ++i) {
+      const double now = double(lights[k].values[i]);
+      const double mean = (double(lights[k - 1].values[i]) + double(lights[k + 1].values[i])) / 2;
+      largest = std::max(largest, std::abs(now));
+      bend = std::max(bend, std::abs(now - mean));
+    }
+    EXPECT_LT(bend, 1e-3 * largest) << int(k) - 60;
   }
 }
 

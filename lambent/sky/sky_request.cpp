@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "lambent/astronomy/place.h"
 #include "lambent/astronomy/refraction.h"
 #include "lambent/astronomy/sun.h"
+#include "lambent/sky/member_reader.h"
 
 namespace lambent::sky {
 using report::badUsage;
@@ -182,29 +182,13 @@ constexpr RequestKey kKeys[] = {
      setRefine},
 };
 
-/// How many letters must change to make one of the other (levenshtein's distance).
-std::size_t lettersApart(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 Error unknownKey(std::string_view key) {
   std::string all;
   const RequestKey* nearest = nullptr;
   std::size_t least = 4;
   for (const RequestKey& each : kKeys) {
     all += fmt::format("{}{}", all.empty() ? "" : ", ", each.key);
-    std::size_t apart = lettersApart(key, each.key);
+    std::size_t apart = editDistance(key, each.key);
     if (key.size() > 2 && (key.starts_with(each.key) || each.key.starts_with(key))) apart = 1;
     if (apart < least && apart < std::max<std::size_t>(each.key.size(), 2)) {
       least = apart;

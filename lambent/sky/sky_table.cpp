@@ -223,11 +223,8 @@ class TableDome final : public Dome {
 }  // namespace
 
 const std::array<double, kLanes>& SkyTable::wavelengths() {
-  static const std::array<double, kLanes> kNodes = [] {
-    std::array<double, kLanes> nodes{};
-    for (int l = 0; l < kLanes; ++l) nodes[std::size_t(l)] = 340 + 400.0 * l / (kLanes - 1);
-    return nodes;
-  }();
+  static const std::array<double, kLanes> kNodes = {340, 370, 400, 425, 450, 475, 500, 525,
+                                                    550, 575, 600, 625, 650, 685, 720, 740};
   return kNodes;
 }
 

@@ -26,7 +26,8 @@ inline constexpr double kLowestSun = -18.6 * kPi / 180;
 class SkyTable {
  public:
   struct Impl;
-  /// nm, over 340 … 740: as many as the kernels have lanes.
+  /// nm, over 340 … 740: as many as the kernels have lanes. What is spoken of most often, 450, 550,
+  /// 650 and 720 nm, is among them.
   static const std::array<double, kLanes>& wavelengths();
 
   /// Solves the atmosphere and looks at its sky from `altitude` (m).

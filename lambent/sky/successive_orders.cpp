@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "lambent/math/quadrature.h"
 #include "lambent/math/types.h"
 #include "lambent/sky/scattering_tables.h"
@@ -33,8 +35,10 @@ struct Arrivals {
   };
   std::vector<Direction> directions;
   std::vector<AirPath> paths;
-  std::vector<float> phase;  ///< [direction of the grid, without border][arrival]: with its weight
-  int fromAbove = 0;         ///< the first so many come from above the horizon
+  // With the weights of the directions in:
+  std::vector<float> moments;  ///< [xx, yy, zz, xy][arrival]
+  std::vector<float> phase;    ///< [direction of the grid, without border][arrival]
+  int fromAbove = 0;           ///< the first so many come from above the horizon
 };
 
 Arrivals arrivalsAt(double altitude, const Scattering::Impl& s) {
@@ -58,6 +62,15 @@ Arrivals arrivalsAt(double altitude, const Scattering::Impl& s) {
   add(s.resolution.downward, kPi);
 
   const std::size_t count = made.directions.size();
+  made.moments.resize(4 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Arrivals::Direction& in = made.directions[i];
+    const double x = std::sin(in.zenith) * std::cos(in.azimuth), y = std::cos(in.zenith),
+                 z = std::sin(in.zenith) * std::sin(in.azimuth);
+    const double products[4] = {x * x, y * y, z * z, x * y};
+    for (std::size_t m = 0; m < 4; ++m)
+      made.moments[m * count + i] = float(in.weight * products[m]);
+  }
   made.phase.reserve(std::size_t(s.grid.zeniths) * s.grid.azimuths * count);
   std::vector<double> row(count);
   for (int z = 0; z < s.grid.zeniths; ++z)
@@ -81,45 +94,34 @@ Arrivals arrivalsAt(double altitude, const Scattering::Impl& s) {
 }
 
 /// Light that arrived, [arrival][lane], as a cell holds it.
-void weigh(const Arrivals& arrivals, const std::vector<float>& radiance, const Grid& grid, int cell,
-           Held& held) {
-  const std::size_t count = arrivals.directions.size();
-  float moments[4][kLanes] = {};
-  for (std::size_t i = 0; i < count; ++i) {
-    const Arrivals::Direction& in = arrivals.directions[i];
-    const double sine = std::sin(in.zenith);
-    const double x = sine * std::cos(in.azimuth), y = std::cos(in.zenith),
-                 z = sine * std::sin(in.azimuth);
-    const float w[4] = {float(in.weight * x * x), float(in.weight * y * y),
-                        float(in.weight * z * z), float(in.weight * x * y)};
-    for (int m = 0; m < 4; ++m)
-      for (int l = 0; l < kLanes; ++l) moments[m][l] += w[m] * radiance[i * kLanes + l];
-  }
+void weigh(const Arrivals& arrivals, const std::vector<float>& radiance, const Grid& grid,
+           const MarchKernels& kernel, int cell, Held& held) {
+  const int count = int(arrivals.directions.size());
+  float moments[4 * kLanes];
+  kernel.weigh(arrivals.moments.data(), 4, count, radiance.data(), moments);
+  const int zs = grid.zeniths, as = grid.azimuths;
+  std::vector<float> phased(std::size_t(zs) * as * kLanes);
+  kernel.weigh(arrivals.phase.data(), zs * as, count, radiance.data(), phased.data());
+
   float inverse[kLanes];
   for (int l = 0; l < kLanes; ++l) {
-    const float all = std::max(moments[0][l] + moments[1][l] + moments[2][l], kNothing);
+    const float all =
+        std::max(moments[l] + moments[kLanes + l] + moments[2 * kLanes + l], kNothing);
     held.logScale[std::size_t(cell) * kLanes + l] = std::log(all);
     inverse[l] = 1 / all;
   }
-  for (int m = 0; m < 4; ++m)
-    for (int l = 0; l < kLanes; ++l)
-      held.moments[(std::size_t(cell) * 4 + m) * kLanes + l] = moments[m][l] * inverse[l];
-
+  for (int i = 0; i < 4 * kLanes; ++i)
+    held.moments[std::size_t(cell) * 4 * kLanes + i] = moments[i] * inverse[i % kLanes];
   float* directed = &held.aerosol[std::size_t(cell) * grid.directions() * kLanes];
   const auto entry = [&](int z, int a) {
     return directed + (std::size_t(z + 1) * grid.azimuthStride() + (a + 1)) * kLanes;
   };
-  const float* phase = arrivals.phase.data();
-  for (int z = 0; z < grid.zeniths; ++z)
-    for (int a = 0; a < grid.azimuths; ++a, phase += count) {
-      float sum[kLanes] = {};
-      for (std::size_t i = 0; i < count; ++i)
-        for (int l = 0; l < kLanes; ++l) sum[l] += phase[i] * radiance[i * kLanes + l];
-      for (int l = 0; l < kLanes; ++l) entry(z, a)[l] = sum[l] * inverse[l];
-    }
+  const float* from = phased.data();
+  for (int z = 0; z < zs; ++z)
+    for (int a = 0; a < as; ++a, from += kLanes)
+      for (int l = 0; l < kLanes; ++l) entry(z, a)[l] = from[l] * inverse[l];
   // The border: past the zenith one comes down on the other side, past the Sun's azimuth on the
   // mirrored half.
-  const int zs = grid.zeniths, as = grid.azimuths;
   for (int a = 0; a < as; ++a) {
     std::copy_n(entry(1, as - 1 - a), kLanes, entry(-1, a));
     std::copy_n(entry(zs - 2, as - 1 - a), kLanes, entry(zs, a));
@@ -130,60 +132,65 @@ void weigh(const Arrivals& arrivals, const std::vector<float>& radiance, const G
   }
 }
 
-/// What one order left: in the air, and on the ground ([sun][lane], logarithms).
+/// What one order left for kLanes wavelengths: in the air, and on the ground ([sun][lane],
+/// logarithms).
 struct Order {
   Held air;
   std::vector<float> logGround;
 };
 
-/// One cell of the order that follows `before`, the first if `once`.
+/// One cell of the order that follows `before`, the first if `once`; for all wavelengths, which
+/// share their rays.
 class Step {
  public:
-  Step(const Scattering::Impl& s, const Block& block, const std::vector<Arrivals>& arrivals,
-       const Order& before, bool once)
-      : s_(s),
-        block_(block),
-        arrivals_(arrivals),
-        before_(before),
-        once_(once),
-        tables_(block.tables(before.air, s.grid)),
-        kernel_(marchKernels()) {}
+  Step(const Scattering::Impl& s, const std::vector<Arrivals>& arrivals,
+       const std::vector<Order>& before, bool once)
+      : s_(s), arrivals_(arrivals), before_(before), once_(once), kernel_(marchKernels()) {}
 
-  void operator()(int cell, Order& next) const {
+  void operator()(int cell, std::vector<Order>& next) const {
     const int sun = cell / s_.grid.altitudes, row = cell % s_.grid.altitudes;
     const Arrivals& here = arrivals_[std::size_t(row)];
     const double sunZenith = s_.grid.sunZenith(sun), altitude = s_.grid.altitude(row);
-    std::vector<float> radiance(here.directions.size() * kLanes);
+    // [block][arrival][lane]
+    const std::size_t size = here.directions.size() * kLanes;
+    std::vector<std::vector<float>> radiance(s_.blocks.size(), std::vector<float>(size));
     std::vector<MarchNode> nodes;
     for (std::size_t i = 0; i < here.directions.size(); ++i) {
       const Arrivals::Direction& in = here.directions[i];
       const AirPath& path = here.paths[std::size_t(in.path)];
       const double towardsSun = std::cos(in.zenith) * std::cos(sunZenith) +
                                 std::sin(in.zenith) * std::sin(sunZenith) * std::cos(in.azimuth);
-      arrive(path, {altitude, path.cosine, sunZenith, towardsSun}, nodes, &radiance[i * kLanes]);
-    }
-    weigh(here, radiance, s_.grid, cell, next.air);
-    if (row > 0) return;
-    float down[kLanes] = {};
-    for (int i = 0; i < here.fromAbove; ++i) {
-      const Arrivals::Direction& in = here.directions[std::size_t(i)];
-      for (int l = 0; l < kLanes; ++l)
-        down[l] += float(in.weight * std::cos(in.zenith)) * radiance[std::size_t(i) * kLanes + l];
-    }
-    for (int l = 0; l < kLanes; ++l)
-      next.logGround[std::size_t(sun) * kLanes + l] = std::log(std::max(down[l], kNothing));
-  }
-
- private:
-  void arrive(const AirPath& path, const RayInAir& ray, std::vector<MarchNode>& nodes,
-              float* radiance) const {
-    if (!path.nodes.empty()) {
+      const RayInAir ray{altitude, path.cosine, sunZenith, towardsSun};
       if (once_)
         s_.prepareOnce(path, ray, Scattering::Impl::Shadow::Soft, nodes);
       else
         s_.prepareAgain(path, ray, nodes);
+      for (std::size_t b = 0; b < s_.blocks.size(); ++b)
+        arrive(b, path, ray, nodes, &radiance[b][i * kLanes]);
+    }
+    for (std::size_t b = 0; b < s_.blocks.size(); ++b) {
+      weigh(here, radiance[b], s_.grid, kernel_, cell, next[b].air);
+      if (row > 0) continue;
+      float down[kLanes] = {};
+      for (int i = 0; i < here.fromAbove; ++i) {
+        const Arrivals::Direction& in = here.directions[std::size_t(i)];
+        for (int l = 0; l < kLanes; ++l)
+          down[l] +=
+              float(in.weight * std::cos(in.zenith)) * radiance[b][std::size_t(i) * kLanes + l];
+      }
+      for (int l = 0; l < kLanes; ++l)
+        next[b].logGround[std::size_t(sun) * kLanes + l] = std::log(std::max(down[l], kNothing));
+    }
+  }
+
+ private:
+  void arrive(std::size_t b, const AirPath& path, const RayInAir& ray,
+              const std::vector<MarchNode>& nodes, float* radiance) const {
+    const Block& block = s_.blocks[b];
+    if (!nodes.empty()) {
       MarchSums sums;
-      kernel_.march(tables_, nodes.data(), int(nodes.size()), once_, !once_, sums);
+      kernel_.march(block.tables(before_[b].air, s_.grid), nodes.data(), int(nodes.size()), once_,
+                    !once_, sums);
       const float air = float(media::evaluate(media::RayleighPhase{}, ray.towardsSun));
       const float aerosol = float(media::evaluate(s_.medium.aerosolPhase, ray.towardsSun));
       for (int l = 0; l < kLanes; ++l)
@@ -191,18 +198,16 @@ class Step {
     }
     if (!path.hitsGround) return;
     float light[kLanes], through[kLanes];
-    s_.fromLogs(before_.logGround, s_.sunZenithAtEnd(path, ray), light);
-    block_.transmit(path.length, through);
+    s_.fromLogs(before_[b].logGround, s_.sunZenithAtEnd(path, ray), light);
+    block.transmit(path.length, through);
     for (int l = 0; l < kLanes; ++l)
-      radiance[l] += through[l] * light[l] * block_.albedo[l] * float(1 / kPi);
+      radiance[l] += through[l] * light[l] * block.albedo[l] * float(1 / kPi);
   }
 
   const Scattering::Impl& s_;
-  const Block& block_;
   const std::vector<Arrivals>& arrivals_;
-  const Order& before_;
+  const std::vector<Order>& before_;
   bool once_;
-  MarchTables tables_;
   MarchKernels kernel_;
 };
 
@@ -226,30 +231,53 @@ class Sum {
         scale += share[l];
         if (scale > 1e-25f) most = std::max(most, double(share[l] / scale));
       }
-      addTo(block_.held.moments, order.air.moments, cell * 4, 4, share);
-      addTo(block_.held.aerosol, order.air.aerosol, cell * std::size_t(grid_.directions()),
-            std::size_t(grid_.directions()), share);
+      addCell(order, cell, share);
     }
     for (std::size_t i = 0; i < ground_.size(); ++i) ground_[i] += std::exp(order.logGround[i]);
     return most;
   }
 
+  /// Adds to the sum what orders after `order` would, the last that was added: as if each were less
+  /// than the one before by the factor that the last was.
+  void addTail(const Order& order, const Order& before) {
+    const auto tail = [](float last, float previous) {
+      const float ratio = std::min(std::exp(last - previous), 0.95f);
+      return std::exp(last) * ratio / (1 - ratio);
+    };
+    for (std::size_t cell = 0; cell < std::size_t(grid_.cells()); ++cell) {
+      float share[kLanes];
+      for (std::size_t l = 0; l < kLanes; ++l) {
+        const std::size_t at = cell * kLanes + l;
+        share[l] = tail(order.air.logScale[at], before.air.logScale[at]);
+        scale_[at] += share[l];
+      }
+      addCell(order, cell, share);
+    }
+    for (std::size_t i = 0; i < ground_.size(); ++i)
+      ground_[i] += tail(order.logGround[i], before.logGround[i]);
+  }
+
   void finish() {
+    const std::size_t directions = std::size_t(grid_.directions());
     for (std::size_t cell = 0; cell < std::size_t(grid_.cells()); ++cell)
       for (std::size_t l = 0; l < kLanes; ++l) {
         const float scale = std::max(scale_[cell * kLanes + l], kNothing);
         block_.held.logScale[cell * kLanes + l] = std::log(scale);
-        for (std::size_t m = 0; m < 4; ++m)
-          block_.held.moments[(cell * 4 + m) * kLanes + l] /= scale;
-        const std::size_t directions = std::size_t(grid_.directions());
-        for (std::size_t d = 0; d < directions; ++d)
-          block_.held.aerosol[(cell * directions + d) * kLanes + l] /= scale;
+        for (std::size_t m = cell * 4; m < (cell + 1) * 4; ++m)
+          block_.held.moments[m * kLanes + l] /= scale;
+        for (std::size_t d = cell * directions; d < (cell + 1) * directions; ++d)
+          block_.held.aerosol[d * kLanes + l] /= scale;
       }
     for (std::size_t i = 0; i < ground_.size(); ++i)
       block_.logGround[i] = std::log(std::max(ground_[i], kNothing));
   }
 
  private:
+  void addCell(const Order& order, std::size_t cell, const float (&share)[kLanes]) {
+    const std::size_t directions = std::size_t(grid_.directions());
+    addTo(block_.held.moments, order.air.moments, cell * 4, 4, share);
+    addTo(block_.held.aerosol, order.air.aerosol, cell * directions, directions, share);
+  }
   static void addTo(std::vector<float>& sum, const std::vector<float>& order, std::size_t first,
                     std::size_t count, const float (&share)[kLanes]) {
     for (std::size_t i = first; i < first + count; ++i)
@@ -268,28 +296,36 @@ Status Scattering::Impl::addOrders(const Progress& progress) {
   std::vector<Arrivals> arrivals;
   for (int row = 0; row < grid.altitudes; ++row)
     arrivals.push_back(arrivalsAt(grid.altitude(row), *this));
-  const work::Runner runner(progress);
-  const work::Chunks cells(std::size_t(grid.cells()), 1);
+  std::vector<Order> before, next;
+  std::vector<Sum> sums;
   for (Block& block : blocks) {
-    Order before{Held(grid), block.logGround}, next = before;
+    before.push_back({Held(grid), block.logGround});
+    next.push_back(before.back());
+    sums.emplace_back(grid, block);
     for (int sun = 0; sun < grid.suns; ++sun) {
       float light[kLanes];
       direct(block, grid.sunZenith(sun), light);
       for (int l = 0; l < kLanes; ++l)
-        before.logGround[std::size_t(sun) * kLanes + l] = std::log(std::max(light[l], kNothing));
+        before.back().logGround[std::size_t(sun) * kLanes + l] =
+            std::log(std::max(light[l], kNothing));
     }
-    Sum sum(grid, block);
-    for (int order = 1; order <= resolution.orders; ++order) {
-      const Step step(*this, block, arrivals, before, order == 1);
-      const Status ran =
-          runner.run({.name = "light in the air", .unit = "cells"}, cells,
-                     [&](const work::Chunk& chunk) { step(int(chunk.index), next); });
-      if (!ran) return ran;
-      orders = std::max(orders, order);
-      if (sum.add(next) < resolution.tolerance) break;
-      std::swap(before, next);
-    }
-    sum.finish();
+  }
+  const work::Runner runner(progress);
+  const work::Chunks cells(std::size_t(grid.cells()), 1);
+  for (orders = 1;; ++orders) {
+    const Step step(*this, arrivals, before, orders == 1);
+    const Status ran =
+        runner.run({.name = fmt::format("light scattered {} times", orders), .unit = "cells"},
+                   cells, [&](const work::Chunk& chunk) { step(int(chunk.index), next); });
+    if (!ran) return ran;
+    double most = 0;
+    for (std::size_t b = 0; b < blocks.size(); ++b) most = std::max(most, sums[b].add(next[b]));
+    if (most < resolution.tolerance || orders >= resolution.orders) break;
+    std::swap(before, next);
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    sums[b].addTail(next[b], before[b]);
+    sums[b].finish();
   }
   return Status::ok();
 }

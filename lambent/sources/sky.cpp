@@ -22,13 +22,13 @@ Error ofTerm(const Term& term, const Error& error) {
 
 }  // namespace
 
-Result<Light> skyLight(const Term& term, const SourceOptions&) {
+Result<Light> skyLight(const Term& term, const SourceOptions& options) {
   const auto request = sky::parseRequest(term.rest.value_or(""));
   if (!request) return ofTerm(term, request.error());
   auto resolved = sky::resolve(*request);
   if (!resolved) return ofTerm(term, resolved.error());
   resolved->value.options.cache = sky::cacheFolder();
-  auto made = sky::makeSky(resolved->value.options);
+  auto made = sky::makeSky(resolved->value.options, options.progress);
   if (!made) return ofTerm(term, made.error());
   Light light{sky::environmentOf(made->value, resolved->value.worldFromSun),
               std::move(resolved->findings)};

@@ -74,8 +74,7 @@ Result<Light> makeTerm(std::string_view text, const SourceOptions& options) {
 std::size_t endOfTerm(std::string_view text, std::size_t at) {
   const std::string_view rest = text.substr(at);
   const SourceKind* kind = kindOf(rest.substr(0, rest.find('+')));
-  if (kind && kind->takes == Takes::Keys)
-    return endOfKeys(text, std::min(at + kind->word.size() + 1, text.size()));
+  if (kind && kind->takes == Takes::Keys) return endOfKeys(text, at + kind->word.size());
   const bool numbers = kind && kind->takes == Takes::Numbers;
   // Where the file's name begins.
   const std::size_t name =

@@ -12,6 +12,7 @@
 
 #include "lambent/light/environment.h"
 #include "lambent/report/finding.h"
+#include "lambent/report/progress.h"
 #include "lambent/report/result.h"
 
 namespace lambent::sources {
@@ -24,6 +25,8 @@ struct SourceOptions {
   /// Bytes that reading a file may take; nothing: as much as one of its size may need (see
   /// file/budget.h).
   std::optional<std::uint64_t> memoryLimit = {};
+  /// Asked while the tables of a sky are made, which takes seconds the first time.
+  Progress progress = {};
 };
 
 /// FILE.exr|.hdr|.png (lat-long, 2:1) | cube:FILE | angular:FILE | ball:FILE (see image::MapKind) |

@@ -14,6 +14,8 @@ from pathlib import Path
 TOOL = os.environ["LAMBENT_UNDER_TEST"]
 WORK = os.environ["LAMBENT_TEST_WORK"]
 INPUTS = Path(os.environ["LAMBENT_INPUTS"])
+# Tables of skies are kept here and not with the person's own.
+os.environ["XDG_CACHE_HOME"] = str(Path(WORK) / "cache")
 
 DONE, FAILED, USAGE, BAD_INPUT = 0, 1, 2, 3
 

@@ -175,6 +175,12 @@ class Numbers(ToolTest):
                        "directional:0,91", "directional:0,10,1e39", "uniform+disc:0,0,5,-1",
                        "disc:nan,10,20", "disc:1e7,10,20"):
             self.refused("light", source, "-o", "a.json", code=USAGE, says="light '")
+        for source in ("sky", "sky:", "sky:lat=nan", "sky:sun-elevation=91", "sky:date=1599-12-31",
+                       "sky:date=2401-01-01", "sky:sun-elevation=-19", "sky:altitude=-1",
+                       "sky:altitude=2e5", "sky:turbidity=0", "sky:lon=180.1", "sky:lat=-90.1",
+                       "sky:date=2026-06-21,time=25:00", "sky:sun-elevation=1,model=cie:16",
+                       "uniform+sky:sun-elevation=1,cloud=2"):
+            self.refused("light", source, "-o", "a.json", code=USAGE, says=["light '", "sky:date="])
         for window in ("hann:nan", "lanczos:inf", "hann:1e400", "hann:-1", "lanczos:0"):
             self.refused("light", "uniform", "-o", "a.json", "--window", window, code=USAGE,
                          says=["--window", window])
@@ -206,6 +212,9 @@ class Replaced(ToolTest):
                                  ("cube:c.png", "c.png"), ("uniform:1e+3+cube:c.png", "c.png")):
                 self.kept(verb, thing, "--light", source, "-o", file, *more,
                           says=["--output", file, "--light"])
+        self.write("air.json", '{"lambent": "atmosphere", "ozone_dobson": 250}')
+        sky = "uniform+sky:sun-elevation=+30,model=preetham,atmosphere=air.json"
+        self.kept("light", sky, "-o", "air.json", says=["--output", "SOURCE"])
         self.kept("light", "l.json", "-o", "l.json", says=["--output", "SOURCE"])
         self.kept("light", "uniform+l.json", "-o", "./l.json", says=["--output", "SOURCE"])
 

@@ -202,6 +202,16 @@ class BadLight(ToolTest):
             self.refused("light", source, "-o", "out.json", code=(USAGE, BAD_INPUT))
 
 
+    def test_damaged_atmospheres(self):
+        for name, text in (("cut.json", '{"lambent": "atmosphere", "ozone_dobson"'), ("list.json", "[]"),
+                           ("light.json", '{"lambent": "light"}'),
+                           ("key.json", '{"lambent": "atmosphere", "haze": 3}'),
+                           ("range.json", '{"lambent": "atmosphere", "top_km": -1}')):
+            self.write(name, text)
+            self.refused("light", f"sky:sun-elevation=30,model=preetham,atmosphere={name}", "-o",
+                         "out.json", code=BAD_INPUT, says=name)
+
+
 class BadPicture(ToolTest):
     def test_pictures_of_different_size(self):
         self.write("a.png", png(8, 8, lambda x, y: (x, y, 0)))
