@@ -13,6 +13,7 @@
 #include "apps/lambent/named_files.h"
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/sky_arguments.h"
+#include "apps/lambent/sky_haze.h"
 #include "apps/lambent/sky_report.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/file/atomic_file.h"
@@ -34,6 +35,7 @@ struct SkyVerb {
   SequenceArguments sequence;
   MapArguments map;
   AtArguments at;
+  HazeArguments haze;
   DevelopmentArguments development;
   fs::path output;
   const CLI::App* app = nullptr;
@@ -56,10 +58,32 @@ Examples:
   lambent sky --date 2026-06-21 --utc-offset 2 --lat 46.2 --lon 6.1 --sequence 04:00,22:00,10
               --map fisheye -o day.png
       A day in steps of ten minutes: day-0001.png, day-0002.png, …
+  lambent sky --sun-elevation 12 --sun-azimuth 140 --haze view.exr depth.exr --look 140,0
+              --haze-sky -o hazy.exr
+      A landscape that was drawn without air, seen through the air of that moment.
 )";
+
+/// Of --haze: of one moment, as colours.
+Status checkHaze(const SkyVerb& verb) {
+  if (!verb.haze.given()) {
+    for (const char* option : {"--depth-along", "--depth-unit", "--haze-form", "--haze-sky"})
+      if (verb.given(option))
+        return badUsage(fmt::format("{} is of --haze COLOUR.exr DEPTH.exr", option));
+    return Status::ok();
+  }
+  if (!verb.drawsPicture())
+    return badUsage("--haze makes a picture: name it with -o OUT.exr, .hdr or .png");
+  for (const char* option :
+       {"--sequence", "--at", "--at-file", "--wavelengths", "--size", "--sun", "--quantity"})
+    if (verb.given(option))
+      return badUsage(
+          fmt::format("{} is not of --haze, whose picture is as the one it is given", option));
+  return Status::ok();
+}
 
 /// What goes nowhere is a mistake that a person wants to hear of.
 Status checkUse(const SkyVerb& verb) {
+  if (Status useful = checkHaze(verb); !useful || verb.haze.given()) return useful;
   for (const char* option : {"--map", "--size", "--quantity"})
     if (verb.given(option) && !verb.drawsPicture())
       return badUsage(
@@ -93,6 +117,7 @@ NamedFiles namedFiles(const SkyVerb& verb, std::size_t frames) {
   }
   files.reads("--atmosphere", verb.sky.file());
   files.reads("--at-file", verb.at.file);
+  verb.haze.addFilesTo(files);
   return files;
 }
 
@@ -236,6 +261,30 @@ Result<SkyMoment> runMoment(const SkyVerb& verb, Plan& plan, sky::SkyMaker& make
   return moment;
 }
 
+Status runHaze(const SkyVerb& verb, Console& console) {
+  auto resolved = sky::resolve(verb.sky.request);
+  if (!resolved) return resolved.error();
+  console.report(resolved->findings);
+  resolved->value.options.cache = sky::cacheFolder();
+  auto picture = hazyPicture(verb.haze, verb.map, verb.given("--map"), resolved->value, console);
+  if (!picture) return picture.error();
+  const std::string size = fmt::format("{}x{}", picture->width, picture->height);
+  const bool numeric = verb.given("--exposure") && verb.development.exposure != "auto";
+  const Status done = console.stage("write", [&] {
+    if (verb.extension() == ".png") {
+      const float ev = verb.development.exposureFor(*picture);
+      return written(image::write(tone::toneMap(std::move(*picture), ev, verb.development.curve),
+                                  verb.output));
+    }
+    if (numeric)
+      for (Rgb& pixel : picture->pixels) pixel *= std::exp2(verb.development.exposureFor({}));
+    return written(image::write(*picture, verb.output));
+  });
+  if (!done) return done.error();
+  return console.finish({{"request", verb.sky.inWords()}, {"output", verb.output.string()}},
+                        fmt::format("{}: {} through the air\n", verb.output.string(), size));
+}
+
 /// The summary, or the rows where they are the result.
 std::string textFor(const SkyVerb& verb, const Plan& plan, const std::vector<SkyMoment>& moments) {
   if (verb.at.given() && verb.extension() != ".csv") return csvOf(plan.table, moments);
@@ -258,6 +307,7 @@ Status runSky(SkyVerb& verb, Console& console) {
   const auto moments = verb.sequence.moments(verb.sky.request);
   if (!moments) return moments.error();
   if (Status distinct = namedFiles(verb, moments->size()).check(); !distinct) return distinct;
+  if (verb.haze.given()) return runHaze(verb, console);
   const auto suns = sunsOf(verb, *moments, console);
   if (!suns) return suns.error();
   auto plan = planOf(verb, *suns);
@@ -308,6 +358,7 @@ Verb addSky(CLI::App& root, ConsoleOptions& common) {
       ->group("Picture");
   verb->map.addTo(*app);
   verb->at.addTo(*app);
+  verb->haze.addTo(*app);
   verb->development.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [verb](Console& console) { return runSky(*verb, console); }};

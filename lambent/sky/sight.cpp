@@ -47,13 +47,14 @@ double spectrumAt(const Sky& sky, std::span<const double> values, double nanomet
 }
 
 Rgb radianceRgb(const radiometry::Xyzv& xyzv) {
-  Eigen::Array3d rgb = radiometry::linearRgbOf(xyzv);
+  return withinGamut(radiometry::linearRgbOf(xyzv));
+}
+
+Rgb withinGamut(const Eigen::Array3d& rgb) {
   const double least = rgb.minCoeff();
-  if (least < 0.0) {
-    const double grey = std::max(xyzv[1], 0.0) / radiometry::kPhotopicEfficacy;
-    rgb = (grey + grey / (grey - least) * (rgb - grey)).max(0.0);
-  }
-  return rgb.cast<float>();
+  if (!(least < 0.0)) return rgb.cast<float>();
+  const double grey = std::max(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 0.0);
+  return (grey + grey / (grey - least) * (rgb - grey)).max(0.0).cast<float>();
 }
 
 }  // namespace lambent::sky

@@ -34,5 +34,7 @@ double spectrumAt(const Sky& sky, std::span<const double> values, double nanomet
 /// Linear RGB, W m⁻² sr⁻¹, of a luminance of Y / 683.002. Of a colour outside of Rec. 709 it is the
 /// nearest to it on the way to grey of the same luminance, so that no channel is negative.
 Rgb radianceRgb(const radiometry::Xyzv& xyzv);
+/// The same of linear RGB with any sign, of a luminance ≥ 0.
+Rgb withinGamut(const Eigen::Array3d& rgb);
 
 }  // namespace lambent::sky

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from harness import BAD_INPUT, DONE, TOOL, USAGE, Exr, ToolTest
+from harness import BAD_INPUT, DONE, TOOL, USAGE, Exr, ToolTest, hdr
 
 SUN = ("--sun-elevation", 25, "--sun-azimuth", 140)
 PLACE = ("--date", "2026-06-21", "--utc-offset", 2, "--lat", 46.2, "--lon", 6.1)
@@ -351,6 +351,42 @@ class Sequences(ToolTest):
         for name in os.listdir(self.dir):
             self.assertRegex(name, r"^a-\d{4}\.exr$")
             Exr(self.path(name))
+
+
+class Haze(ToolTest):
+    def test_far_things_look_like_the_sky(self):
+        self.write("black.hdr", hdr(32, 16, (0, 0, 0, 0)))
+        self.write("one.hdr", hdr(32, 16))
+        means = []
+        for unit in (1000, 20000):
+            self.run_tool("sky", *SUN, "--quiet", "--haze", "black.hdr", "one.hdr", "--look",
+                          "140,2", "--fov", 2, "--depth-unit", unit, "--haze-form", "constant",
+                          "-o", "hazy.exr")
+            picture = Exr(self.path("hazy.exr"))
+            self.assertEqual((picture.width, picture.height), (32, 16))
+            means.append({c: sum(map(sum, picture[c])) / (32 * 16) for c in "RGB"})
+        near, far = means
+        for c in "RGB":
+            self.assertGreater(near[c], 0)
+            self.assertGreater(far[c], 5 * near[c])
+        # What scatters most near by has the colour of scattering, and is first to be saturated.
+        self.assertGreater(near["B"] / near["R"], far["B"] / far["R"])
+
+    def test_what_it_needs(self):
+        self.write("a.hdr", hdr(32, 16))
+        self.write("b.hdr", hdr(16, 16))
+        out = ("-o", "hazy.exr")
+        haze = ("sky", *SUN, "--haze", "a.hdr")
+        self.refused(*haze, *out, code=USAGE, says="--haze")
+        self.refused(*haze, "a.hdr", code=USAGE, says="-o OUT")
+        self.refused(*haze, "b.hdr", "--haze-form", "constant", *out, code=USAGE, says="16x16")
+        self.refused(*haze, "none.exr", *out, code=BAD_INPUT, says="none.exr")
+        self.refused(*haze, "a.hdr", "--sequence", "04:00,22:00", *out, code=USAGE,
+                     says="--sequence")
+        self.refused(*haze, "a.hdr", "--map", "lat-long", "--depth-along", "axis", "--haze-form",
+                     "constant", *out, code=USAGE, says="axis")
+        self.refused(*haze, "a.hdr", "-o", "a.hdr", code=USAGE)
+        self.refused("sky", *SUN, "--haze-sky", *out, code=USAGE, says="--haze COLOUR")
 
 
 class Refused(ToolTest):
