@@ -150,14 +150,15 @@ TEST(AirColors, SixteenWavelengthsAreEnough) {
       EXPECT_LT((b.extinction - a.extinction).abs().maxCoeff(), 1e-3);
       EXPECT_LT((b.inScattered() / a.inScattered() - 1).abs().maxCoeff(), 2e-3);
     }
-  // And many are as radiometry has the colours of spectra that are linear between wavelengths.
+  // And many are as radiometry has the colours of spectra that are linear between wavelengths: here
+  // the Sun's is, and the air's is a cubic.
   const Scattering fine = solved(5);
   const AirColors colors(fine, clearAir(), viewer.sunElevation);
   std::vector<double> relative = fine.radiance(rayOf(viewer, towards(0.5, 1))), spectrum = relative;
   for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] *= fine.medium().solarIrradiance[i];
   const Eigen::Array3d expected =
       radiometry::linearRgbOf(radiometry::xyzvOf(fine.medium().wavelengths, spectrum));
-  EXPECT_LT((colors.radiance(relative) / expected - 1).abs().maxCoeff(), 1e-4);
+  EXPECT_LT((colors.radiance(relative) / expected - 1).abs().maxCoeff(), 3e-4);
 }
 
 TEST(ExactAir, ShortPathsAreLinear) {
