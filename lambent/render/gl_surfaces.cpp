@@ -119,9 +119,9 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
     for (const char* name : {"incident.glsl", "lobe.glsl"}) include(name);
   }
   if (kind == SurfaceKind::Mirror) fragment.parts.push_back(environmentSource());
-  for (const char* name :
-       {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl", "texel_receivers.glsl",
-        "corner_weights.glsl", "sun_shadow.glsl", "surface.frag.glsl"})
+  if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
+  for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
+                           "texel_receivers.glsl", "corner_weights.glsl", "surface.frag.glsl"})
     include(name);
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "surface.vert.glsl",

@@ -4,7 +4,7 @@
 // 3 black; LAMBENT_GROUPS, LAMBENT_INTERPOLATED and LAMBENT_EACH_GROUP as in surface.vert.glsl and,
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, base_color_map.glsl, shading_normal.glsl, texel_receivers.glsl,
-// corner_weights.glsl, sun_shadow.glsl; for mirrors environment.glsl, environment_maps.glsl.
+// corner_weights.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl, environment_maps.glsl.
 
 struct Vertex {
   vec4 positionU;
