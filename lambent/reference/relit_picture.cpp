@@ -15,6 +15,7 @@
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/picture_frame.h"
 #include "lambent/shade/rtt_footprint.h"
+#include "lambent/sky/shafts.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/work/runner.h"
 
@@ -76,6 +77,33 @@ struct LitScene {
   }
 };
 
+/// What the shadows of things take from the air before what is seen.
+struct ShadowedAir {
+  const shade::Air& air;
+  const trace::RayScene& rays;
+  sky::AerialPerspective table;
+  sky::SamplingPlanes planes;
+
+  ShadowedAir(const shade::Air& of, const trace::RayScene& scene, const scene::Camera& camera,
+              const scene::Box& box)
+      : air(of), rays(scene), table(*of.table), planes(of.planes(camera, box)) {}
+
+  /// `distance`: nothing for the background.
+  Rgb missing(const scene::Ray& ray, std::optional<float> distance,
+              const light::SunPoint& sun) const {
+    sky::ShaftRay shaft;
+    shaft.direction = air.sunFromAsset * ray.direction.cast<double>();
+    shaft.length = distance ? double(*distance) * air.metresPerUnit
+                            : planes.last / std::max(shaft.direction.dot(planes.axis), 1e-6);
+    const Mat3d assetFromSun = air.sunFromAsset.transpose() / air.metresPerUnit;
+    const auto visible = [&](const Vec3d& place) {
+      return !rays.occluded(ray.origin + Vec3((assetFromSun * place).cast<float>()), sun.direction);
+    };
+    const Eigen::Array3d lit = sky::airBetween(table, shaft.direction, shaft.length).fromSun;
+    return (lit - sky::shaftsBySplitPlanes(table, shaft, visible, planes)).cast<float>();
+  }
+};
+
 }  // namespace
 
 Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
@@ -106,6 +134,9 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
   const float share = 1.0f / float(positions.size());
   std::vector<light::SunPoint> sun;
   if (options.sun) sun = light::pointsOf(options.sun->sun, options.samples);
+  std::optional<ShadowedAir> shafts;
+  if (options.air && options.air->shafts)
+    shafts.emplace(*options.air, *rays, camera, scene::bounds(asset.scene));
   image::Image image(width, height);
   image.alpha.resize(image.pixels.size());
 
@@ -120,11 +151,15 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
         const Vec2& p = positions[i];
         const scene::Ray ray = scene::cameraRay(camera, width, height, x + p.x(), y + p.y());
         const std::optional<trace::Hit> hit = rays->closest(ray.origin, ray.direction);
-        if (!hit) continue;
+        if (!hit) {
+          if (shafts && options.background) sum -= shafts->missing(ray, {}, sun[i]);
+          continue;
+        }
         ++covered;
         const Rgb radiance =
             lit.exitRadiance(*hit, -ray.direction, sun.empty() ? nullptr : &sun[i]);
         sum += options.air ? options.air->seen(ray.direction, hit->distance, radiance) : radiance;
+        if (shafts) sum -= shafts->missing(ray, hit->distance, sun[i]);
       }
       image.at(x, y) = share * sum;
       image.alpha[std::size_t(y) * width + x] = float(covered) / float(positions.size());

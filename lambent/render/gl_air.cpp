@@ -1,6 +1,7 @@
 #include "lambent/render/gl_air.h"
 
 #include <algorithm>
+#include <cassert>
 #include <variant>
 #include <vector>
 
@@ -29,11 +30,12 @@ struct PhaseUniform {
 
 }  // namespace
 
-std::string airSource() {
-  std::string text;
-  for (const char* name : {"phase_function.glsl", "aerial_perspective.glsl", "air_table.glsl"})
+std::string airSource(bool shafts) {
+  std::string text = fmt::format("#define LAMBENT_SHAFTS {:d}\n", shafts);
+  for (const char* name : {"phase_function.glsl", "aerial_perspective.glsl"})
     text += shaderSource(name);
-  return text;
+  if (shafts) text += shaderSource("shafts.glsl");
+  return text.append(shaderSource("air_table.glsl"));
 }
 
 Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
@@ -57,10 +59,20 @@ Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
   }
   glTextureSubImage2D(made.table_.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, texels.data());
   if (Status s = checkGl("uploading the air"); !s) return s.error();
+  if (air.shafts) {
+    const Program::Stage stages[] = {
+        {GL_VERTEX_SHADER, "show.vert.glsl", {std::string(shaderSource("show.vert.glsl"))}},
+        {GL_FRAGMENT_SHADER,
+         "shaft_curtain.frag.glsl",
+         {made.source(), std::string(shaderSource("shaft_curtain.frag.glsl"))}}};
+    Result<Program> program = Program::make(stages);
+    if (!program) return program.error();
+    made.curtain_ = std::move(*program);
+  }
   return made;
 }
 
-void GlAir::bind(const Program& program) const {
+void GlAir::bind(const Program& program, const GlView& view, const GlSunMap* sunMap) const {
   const sky::AirTable& table = *air_.table;
   const sky::AirTableAxes& axes = table.axes();
   program.set("airNodes", table.size().azimuths, table.size().elevations, table.size().distances);
@@ -74,6 +86,31 @@ void GlAir::bind(const Program& program) const {
   program.setMatrix("sunFromWorld", Mat3(air_.sunFromAsset.cast<float>()));
   program.set("metresPerUnit", float(air_.metresPerUnit));
   glBindTextureUnit(kAirUnit, table_.name());
+  if (!air_.shafts) return;
+  assert(view.shafts && sunMap);
+  const sky::SamplingPlanes& planes = *view.shafts;
+  program.set("shaftOrigin", 0.0f, 0.0f, 0.0f);  // places are counted from the eye
+  program.set("shaftEye", view.eye.x(), view.eye.y(), view.eye.z());
+  program.set("shaftAxis", float(planes.axis.x()), float(planes.axis.y()), float(planes.axis.z()));
+  program.set("shaftDepths", float(planes.first), float(planes.last));
+  program.set("shaftRate", float(planes.rate));
+  program.set("shaftPlanes", planes.count, planes.samples);
+  sunMap->bindForShafts(program);
+}
+
+void GlAir::drawCurtain(const GlView& view, const GlSunMap* sunMap) const {
+  if (!air_.shafts) return;
+  curtain_.use();
+  bind(curtain_, view, sunMap);
+  curtain_.set("corner", view.corner.x(), view.corner.y(), view.corner.z());
+  curtain_.set("right", view.right.x(), view.right.y(), view.right.z());
+  curtain_.set("up", view.up.x(), view.up.y(), view.up.z());
+  // At the far plane, where the frame was cleared to and nothing came nearer.
+  glDepthFunc(GL_LEQUAL);
+  glDepthRange(1.0, 1.0);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthRange(0.0, 1.0);
+  glDepthFunc(GL_LESS);
 }
 
 }  // namespace lambent::render

@@ -165,6 +165,79 @@ TEST(GlAir, FarAwayHidesWhatIsThere) {
   EXPECT_GT(seen, 30);
 }
 
+/// The Sun of shade::test::clearAir.
+light::Environment dayWithSun() {
+  const float elevation = float(18 * kPi / 180);
+  return light::Environment::uniform(Rgb(3.0f, 4.0f, 6.0f)) +
+         light::Environment::disc(
+             {.direction = Vec3(std::cos(elevation), std::sin(elevation), 0.0f),
+              .angularDiameter = 0.0093,
+              .irradiance = Rgb(60.0f, 54.0f, 45.0f)});
+}
+
+Pictures sunnyPictures(const asset::Asset& asset, const scene::Camera& camera,
+                       PictureOptions options) {
+  const light::Environment sky = dayWithSun();
+  options.sun = shade::sharpSunOf(sky, std::vector<double>(5, 1.0));
+  auto cpu = reference::relitPicture(asset, sky.project(5), sky, camera, options);
+  auto gl = picture(asset, sky.project(5), sky, camera, options);
+  if (!cpu || !gl) {
+    ADD_FAILURE() << (cpu ? gl.error().message : cpu.error().message);
+    return {};
+  }
+  for (Image* image : {&*cpu, &*gl})
+    for (Rgb& pixel : image->pixels) pixel /= kDay;
+  return {std::move(*cpu), std::move(*gl)};
+}
+
+// Units of a kilometre: towers in a row, across the Sun.
+TEST(GlAir, ShaftsAreTheCpus) {
+  asset::Asset asset;
+  shade::test::addDiffuse(asset, shade::test::floor(Vec3(0, 0, -1), 6.0f), {});
+  for (int k = 0; k < 4; ++k)
+    shade::test::addDiffuse(
+        asset, box(Vec3(1.5f, 0.9f, 0.5f - 1.3f * float(k)), Vec3(0.2f, 0.9f, 0.4f)), {});
+  const scene::Camera camera = shade::test::cameraAt(Vec3(-0.3f, 0.3f, 4), Vec3(0, 0.9f, -1));
+  for (const bool background : {false, true}) {
+    PictureOptions options = small(4);
+    options.background = background;
+    options.air = shade::test::clearAir(1000);
+    const Pictures lit = sunnyPictures(asset, camera, options);
+    options.air->shafts = shade::Shafts{};
+    const Pictures shafts = sunnyPictures(asset, camera, options);
+    // Borders of shadows differ by parts of a texel.
+    test::expectSame("shafts-" + std::to_string(background), shafts.cpu, shafts.gl,
+                     {.mean = 0.25, .interior = 8});
+    // Shadows only take away.
+    double taken = 0;
+    for (std::size_t i = 0; i < lit.gl.pixels.size(); ++i) {
+      EXPECT_LT((shafts.gl.pixels[i] - lit.gl.pixels[i]).maxCoeff(), 1e-4f);
+      taken += double((lit.gl.pixels[i] - shafts.gl.pixels[i]).mean());
+    }
+    EXPECT_GT(taken / double(lit.gl.pixels.size()), 1e-3);
+  }
+}
+
+TEST(GlAir, ShaftsWantShadows) {
+  // Nothing stands between the air and the Sun.
+  asset::Asset asset;
+  shade::test::addDiffuse(asset, shade::test::floor(Vec3(0, 0, -1), 6.0f), {});
+  const scene::Camera camera = shade::test::cameraAt(Vec3(0, 0.3f, 4), Vec3(0, 0.2f, -1));
+  PictureOptions options = small(1);
+  options.background = true;
+  options.air = shade::test::clearAir(1000);
+  const Pictures lit = sunnyPictures(asset, camera, options);
+  options.air->shafts = shade::Shafts{};
+  const Pictures shafts = sunnyPictures(asset, camera, options);
+  EXPECT_LT(meanChange(lit.gl, shafts.gl), 1e-4);
+  EXPECT_LT(meanChange(lit.cpu, shafts.cpu), 1e-4);
+  // A Sun with sharp shadows is needed.
+  const light::Environment sky = shade::test::sky();
+  const auto without = picture(asset, sky.project(5), sky, camera, options);
+  ASSERT_FALSE(without);
+  EXPECT_EQ(without.error().kind, ErrorKind::BadUsage);
+}
+
 TEST(GlAir, OrthographicCamerasAreRefused) {
   const asset::Asset asset = longPlane(1, false);
   PictureOptions options = small(1);

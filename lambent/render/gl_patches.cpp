@@ -218,7 +218,7 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
       groupsOf(bands), interpolated, filter, options_.air != nullptr, numbersDefine(encoding),
       unrolledDefines(bands, encoding));
   std::vector<std::string> fragment = {defines};
-  if (options_.air) fragment.push_back(airSource());
+  if (options_.air) fragment.push_back(options_.air->source());
   for (const char* name :
        {"incident.glsl", "corner_weights.glsl", "rtt_response.glsl", "view_square.glsl",
         "rtt_footprint.glsl", "rtt_look_up.glsl", "tangent_frame.glsl", "shading_normal.glsl",
@@ -313,7 +313,7 @@ void GlPatches::setLight(std::vector<Relit> light) {
   }
 }
 
-void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
+void GlPatches::draw(const GlView& view, const GlSunMap* sunMap, GLuint vertexArray) const {
   for (const Draw& draw : draws_) {
     const BiScale& biScale = biScaleOf(draw.mesh);
     const EncodedRtt& encoded = rttOf(draw.mesh);
@@ -324,7 +324,7 @@ void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
     program.set("pixelWidth", view.sampleWidth.perMetre, view.sampleWidth.constant);
-    if (options_.air) options_.air->bind(program);
+    if (options_.air) options_.air->bind(program, view, sunMap);
     program.set("views", encoded.views);
     program.set("viewDependent", int(showing_.viewDependent));
     program.set("hasIdMap", int(biScale.patch.idMap() != nullptr));

@@ -46,8 +46,8 @@ class GlPatches {
   }
 
   /// Draws them into the bound framebuffer: radiance, and 1 in alpha. A vertex array must be bound;
-  /// its element buffer is changed.
-  void draw(const GlView& view, GLuint vertexArray) const;
+  /// its element buffer is changed. `sunMap`: of shafts of light in the air.
+  void draw(const GlView& view, const GlSunMap* sunMap, GLuint vertexArray) const;
   /// Calls draw(mesh, vertices, corners, count) for every piece: vertices hold positions and
   /// texture coordinates where unlit.vert.glsl seeks them.
   template <class DrawUnlit>

@@ -152,9 +152,10 @@ void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
     drawUnlit(view);
     return;
   }
-  surfaces_.draw(view, environment, colors_, sunMap_ ? &*sunMap_ : nullptr, options_.showing,
-                 noAttributes_.name());
-  patches_.draw(view, noAttributes_.name());
+  const GlSunMap* sunMap = sunMap_ ? &*sunMap_ : nullptr;
+  surfaces_.draw(view, environment, colors_, sunMap, options_.showing, noAttributes_.name());
+  patches_.draw(view, sunMap, noAttributes_.name());
+  if (air_ && options_.background) air_->drawCurtain(view, sunMap);
 }
 
 void GlScene::drawUnlit(const GlView& view) const {

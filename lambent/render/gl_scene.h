@@ -27,6 +27,7 @@ struct GlSceneOptions {
   shade::Showing showing;
   std::optional<sh::RgbCoefficients> sunShare;  ///< of makeLit's light, of a sharp Sun
   std::optional<shade::Air> air;                ///< before all that makeLit() made
+  bool background = false;  ///< there will be one: shafts of light stand before it too
 };
 
 class GlScene {
@@ -68,7 +69,8 @@ class GlScene {
         colors_(asset.scene),
         surfaces_(asset, options.largestBlock, air),
         patches_(asset, {options.largestBlock, options.largestTexture, air}, options.showing),
-        bounds_(scene::bounds(asset.scene)) {}
+        bounds_(scene::bounds(asset.scene)),
+        air_(std::move(air)) {}
   Status addAll();
   Status retransfer(const shade::Showing& showing);
   void drawUnlit(const GlView& view) const;
@@ -86,6 +88,7 @@ class GlScene {
   GlSurfaces surfaces_;
   GlPatches patches_;
   scene::Box bounds_;
+  std::shared_ptr<const GlAir> air_;
   std::optional<GlSunMap> sunMap_;  ///< made for the first sharp Sun
   bool sharpSun_ = false;
   Program unlit_;

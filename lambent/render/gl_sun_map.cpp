@@ -117,4 +117,9 @@ void GlSunMap::bind(const Program& program) const {
   glBindTextureUnit(kMapUnit, depth_.name());
 }
 
+void GlSunMap::bindForShafts(const Program& program) const {
+  program.setMatrix("shaftMapFromWorld", mapFromWorld_.data());
+  glBindTextureUnit(kMapUnit, depth_.name());
+}
+
 }  // namespace lambent::render

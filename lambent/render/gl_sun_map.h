@@ -29,6 +29,8 @@ class GlSunMap {
   }
   /// Gives a program that holds sun_shadow.glsl the map.
   void bind(const Program& program) const;
+  /// … or opengl/air_table.glsl with shafts of light.
+  void bindForShafts(const Program& program) const;
 
  private:
   void begin(const light::SunPoint& sun, const GlView& view, const scene::Box& bounds);

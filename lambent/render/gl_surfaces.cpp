@@ -121,7 +121,7 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
   }
   if (kind == SurfaceKind::Mirror) fragment.parts.push_back(environmentSource());
   if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
-  if (air_) fragment.parts.push_back(airSource());
+  if (air_) fragment.parts.push_back(air_->source());
   for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
                            "texel_receivers.glsl", "corner_weights.glsl", "surface.frag.glsl"})
     include(name);
@@ -289,7 +289,7 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
       program.set("sunCanHide", int(hidden));
       if (hidden) sunMap->bind(program);
     }
-    if (air_) air_->bind(program);
+    if (air_) air_->bind(program, view, sunMap);
     colors.bind(program, draw.mesh);
     if (draw.kind == SurfaceKind::Mirror) environment.bind(program, view.environmentFromWorld);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());

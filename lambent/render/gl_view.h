@@ -8,6 +8,7 @@
 #include "lambent/math/types.h"
 #include "lambent/scene/camera.h"
 #include "lambent/shade/rtt_footprint.h"
+#include "lambent/sky/shafts.h"
 
 namespace lambent::render {
 
@@ -18,8 +19,10 @@ struct GlView {
   shade::SampleWidth sampleWidth;
   Mat3 environmentFromWorld = Mat3::Identity();
   std::optional<light::SunPoint> sun;  ///< whose shadows are sharp, if that is wished
-  bool unlit = false;                  ///< base colours alone
-  bool mirrored = false;               ///< the camera's matrix turns right into left
+  std::optional<sky::SamplingPlanes>
+      shafts;             ///< of that Sun's light in the air, if they are wished
+  bool unlit = false;     ///< base colours alone
+  bool mirrored = false;  ///< the camera's matrix turns right into left
   /// The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up;
   /// not unit.
   Vec3 corner, right, up;

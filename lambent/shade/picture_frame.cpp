@@ -50,6 +50,15 @@ Status checkOptions(const PictureOptions& options) {
   if (options.air && !(options.air->metresPerUnit > 0 && std::isfinite(options.air->metresPerUnit)))
     return report::badUsage(fmt::format("{} m in a unit of the scene: it must be positive",
                                         options.air->metresPerUnit));
+  if (options.air && options.air->shafts) {
+    const Shafts& shafts = *options.air->shafts;
+    if (!options.sun)
+      return report::badUsage("shafts of light without a Sun whose shadows are sharp");
+    if (shafts.planes < 1 || shafts.planes > 1024 || shafts.samples < 1 || shafts.samples > 1024)
+      return report::badUsage(
+          fmt::format("shafts of light by {} planes and {} samples between two: 1 to 1024 can be",
+                      shafts.planes, shafts.samples));
+  }
   return Status::ok();
 }
 
@@ -69,8 +78,12 @@ Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
 
 void finishPicture(image::Image& image, const light::Environment& environment,
                    const scene::Camera& camera, const PictureOptions& options) {
-  for (Rgb& pixel : image.pixels) pixel = pixel.max(0.0f);
-  if (!options.background) return;
+  const auto cut = [&] {
+    for (Rgb& pixel : image.pixels) pixel = pixel.max(0.0f);
+  };
+  if (!options.background) return cut();
+  const bool shafts = options.air && options.air->shafts;
+  if (!shafts) cut();
   const std::vector<Vec2> positions = scene::subpixelPositions(options.samples);
   work::parallelFor(image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
@@ -84,6 +97,7 @@ void finishPicture(image::Image& image, const light::Environment& environment,
       image.pixels[at] += uncovered / float(positions.size()) * sum;
     }
   });
+  if (shafts) cut();
   image.alpha.clear();
 }
 

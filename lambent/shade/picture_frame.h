@@ -28,6 +28,8 @@ Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
 /// coverage in alpha. Radiance that a ringing light drove below zero is cut off here, after
 /// averaging: cutting every sub-sample would brighten the antialiased borders of such places. Then
 /// the background, if asked for: its mean over the pixel's sub-samples, weighted by 1 − coverage.
+/// With shafts of light `image` also holds what they take from the background: then the cut comes
+/// last.
 void finishPicture(image::Image& image, const light::Environment& environment,
                    const scene::Camera& camera, const PictureOptions& options);
 

@@ -23,7 +23,10 @@ Air clearAir(double metresPerUnit) {
         *solved, atmosphere,
         sky::ViewerInAir{.altitude = 50, .sunElevation = 18 * kPi / 180, .sunDistance = 1});
   }();
-  return {table, Mat3d::Identity(), metresPerUnit};
+  Air air;
+  air.table = table;
+  air.metresPerUnit = metresPerUnit;
+  return air;
 }
 
 }  // namespace lambent::shade::test
