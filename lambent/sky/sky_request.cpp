@@ -227,6 +227,7 @@ std::string listed(const std::vector<std::string_view>& words) {
 struct SunPlace {
   double elevation, bearing;  ///< as it is seen, rad
   double distance;            ///< AU
+  std::optional<double> trueElevation;
 };
 
 Result<SunPlace> sunByMoment(const SkyRequest& request) {
@@ -246,7 +247,8 @@ Result<SunPlace> sunByMoment(const SkyRequest& request) {
   const astronomy::Topocentric sun = astronomy::apparentSun(*moment, *place);
   const astronomy::Horizontal seen =
       astronomy::refracted(sun.direction, astronomy::standardAir(request.altitude));
-  return SunPlace{seen.elevation, seen.azimuth, sun.distance / astronomy::kAstronomicalUnit};
+  return SunPlace{seen.elevation, seen.azimuth, sun.distance / astronomy::kAstronomicalUnit,
+                  sun.direction.elevation};
 }
 
 Result<SunPlace> sunOf(const SkyRequest& request) {
@@ -260,7 +262,8 @@ Result<SunPlace> sunOf(const SkyRequest& request) {
     return badUsage(fmt::format(
         "where the Sun stands is missing: give {}date, time, lat and lon",
         request.sunAzimuth ? "sun-elevation with sun-azimuth, or " : "sun-elevation, or "));
-  return SunPlace{*request.sunElevation * kRadians, request.sunAzimuth.value_or(180) * kRadians, 1};
+  return SunPlace{*request.sunElevation * kRadians, request.sunAzimuth.value_or(180) * kRadians, 1,
+                  std::nullopt};
 }
 
 Result<Atmosphere> atmosphereOf(const SkyRequest& request) {
@@ -385,6 +388,7 @@ Result<WithFindings<ResolvedSky>> resolve(const SkyRequest& request) {
   resolved.options.diffuseHorizontalIrradiance = request.diffuseHorizontal;
   resolved.options.refine = request.refine;
   resolved.sunBearing = sun->bearing;
+  resolved.trueElevation = sun->trueElevation;
   resolved.worldFromSun = worldFromSunAt(sun->bearing);
   if (request.altitude > 0 && !isSimulated(request.model))
     made.findings.push_back({Severity::Warning, "sky-altitude-unused",

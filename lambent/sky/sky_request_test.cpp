@@ -1,5 +1,6 @@
 #include "lambent/sky/sky_request.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -47,6 +48,10 @@ TEST(SkyRequest, FindsTheSunOfAMomentAndAPlace) {
   EXPECT_NEAR(noon.options.sunElevation / kRad, 66.5, 0.05);
   EXPECT_NEAR(noon.sunBearing / kRad, 180, 2);
   EXPECT_NEAR(noon.options.sunDistance, 1.0163, 3e-4);
+  // Refraction at 66.5°: 1.02′ cot 66.5°, .44′.
+  ASSERT_TRUE(noon.trueElevation);
+  EXPECT_NEAR((noon.options.sunElevation - *noon.trueElevation) / kRad * 60, 0.44, 0.02);
+  EXPECT_FALSE(resolved("sun-elevation=10").trueElevation);
   // The same moment by other clocks.
   for (const char* same : {"date=2026-06-21,time=11:32,lat=46.95,lon=7.45",
                            "date=2026-06-21,time=17:02:00,utc-offset=+05:30,lat=46.95,lon=7.45",
