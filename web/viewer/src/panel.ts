@@ -49,6 +49,7 @@ const kMostLobe = 200;
 
 export class Panel {
   readonly element: HTMLElement;
+  private environments = 0;
   private readonly updates: ((view: ViewState, facts: PanelFacts) => void)[] = [];
 
   constructor(
@@ -120,7 +121,9 @@ export class Panel {
 
   private lightSection(sky: SkyMap): HTMLElement {
     const { actions } = this;
-    const environments = select("Environment", (index) => actions.openEnvironment(index));
+    const environments = select("Environment", (index) => {
+      if (index < this.environments) actions.openEnvironment(index);
+    });
     const turn = slider({
       label: "Turn",
       min: -180,
@@ -165,7 +168,13 @@ export class Panel {
         }),
     });
     this.updates.push((view, facts) => {
-      environments.fill(facts.environments, facts.environment);
+      // What is not of the list has no other name.
+      this.environments = facts.environments.length;
+      const sky = facts.environment < 0 && view.environment.source.startsWith("sky:");
+      environments.fill(
+        sky ? [...facts.environments, "Sky"] : facts.environments,
+        sky ? facts.environments.length : facts.environment,
+      );
       const [x, y, z, w] = view.environment.rotation;
       turn.set(Math.round((Math.atan2(2 * (w * y + x * z), 1 - 2 * (x * x + y * y)) * 180) / Math.PI));
       play.set(facts.playing);

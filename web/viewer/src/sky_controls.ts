@@ -51,7 +51,7 @@ const kModels: readonly [SkyModel, string][] = [
   ["cie-overcast", "CIE overcast"],
 ];
 
-export function defaultSky(): SkySettings {
+function defaultSky(): SkySettings {
   const [, latitude, longitude, utcOffset] = kPlaces[0]!;
   return {
     sun: { date: "2026-06-21", minutes: 600, utcOffset, latitude, longitude },
@@ -61,7 +61,7 @@ export function defaultSky(): SkySettings {
 }
 
 /** Minutes of the clock at which the Sun passes an elevation (degrees), upwards and downwards. */
-export function crossings(moment: SkyMoment, elevation: number): { up: number[]; down: number[] } {
+function crossings(moment: SkyMoment, elevation: number): { up: number[]; down: number[] } {
   const [up, down]: [number[], number[]] = [[], []];
   const at = (minutes: number) =>
     LambentSky.sun(requestOf({ sun: { ...moment, minutes }, model: "fast", turbidity: 2 }))
@@ -191,11 +191,12 @@ export class SkyControls {
     if (day !== this.day) {
       this.day = day;
       const { up, down } = crossings(moment, -0.27);
+      const times = (all: number[]) => all.map((each) => clock(Math.round(each))).join(", ");
       this.dayWords =
         up.length + down.length === 0
           ? " It neither rises nor sets."
-          : ` Sunrise ${up.map(clock).join(", ") || "none"}, ` +
-            `sunset ${down.map(clock).join(", ") || "none"}.`;
+          : ` Sunrise ${times(up) || "none"}, ` +
+            `sunset ${times(down) || "none"}.`;
     }
     return sun + this.dayWords;
   }

@@ -230,14 +230,17 @@ export class Viewer {
     this.exposeSky();
     this.touch();
   }
-  /** The mean radiance from everywhere becomes a middle tone. */
   private exposeSky(): void {
+    const exposure = this.skyExposure();
+    if (this.follows && exposure !== null) this.change((view) => (view.exposure = exposure));
+  }
+  /** EV by which the mean radiance from everywhere becomes a middle tone; null: there is no sky. */
+  private skyExposure(): number | null {
     const sky = this.stage.environment?.sky;
-    if (!this.follows || !sky) return;
+    if (!sky) return null;
     const [r, g, b] = sky.light(1).radiance({ x: 0, y: 1, z: 0 });
     const mean = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    const exposure = Math.log2(kSkyMean / mean);
-    this.change((view) => (view.exposure = Math.round(100 * exposure) / 100));
+    return Math.round(100 * Math.log2(kSkyMean / mean)) / 100;
   }
 
   // Files -----------------------------------------------------------------------------------------
@@ -309,6 +312,7 @@ export class Viewer {
       await this.useEnvironment(view.environment.source);
       this.view = view;
       this.skyProblem = null;
+      this.follows = [null, view.exposure].includes(this.skyExposure());
       this.disc = -1;
       this.touch();
     });
