@@ -183,7 +183,10 @@ void captureFigure5(const Studio& studio) {
   // What 5 bands can do at all: light captured at every one of the vertices themselves.
   const Lights own = captured(set, exact.positions);
   std::vector<Rgb> local;
-  const shade::DiffuseShader shader(set.asset.transfer.meshes[0]);
+  const shade::DiffuseShader shader(
+      std::get<transfer::Surface<transfer::Numbers>>(set.asset.transfer.meshes[0])
+          .responses.find(set.asset.transfer.kind)
+          ->diffuse->vectors);
   std::vector<float> everywhere(3 * shader.receiverCount());
   for (std::size_t k = 0; k < own.size(); ++k) {
     shader.shade(own[k], everywhere);

@@ -4,7 +4,7 @@
 //   NAME: figure3 figure9 figure10 figure11 figure12 table1 diffuse-accuracy glossy-accuracy
 //         biscale-truth biscale-resolution biscale-figure1 biscale-figure3 biscale-figure4
 //         biscale-figure5 biscale-figure6 biscale-vase biscale-filter biscale-encodings
-//         biscale-rtt-methods capture-projection capture-figure5
+//         biscale-rtt-methods capture-projection capture-figure5 sun-shadow
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "figures/biscale.h"
 #include "figures/capture.h"
 #include "figures/pictures.h"
+#include "figures/sun_shadow.h"
 
 int main(int argc, char** argv) {
   using namespace lambent::figures;
@@ -41,7 +42,8 @@ int main(int argc, char** argv) {
       {"biscale-encodings", biscaleEncodings},
       {"biscale-rtt-methods", biscaleRttMethods},
       {"capture-projection", captureProjection},
-      {"capture-figure5", captureFigure5}};
+      {"capture-figure5", captureFigure5},
+      {"sun-shadow", sunShadow}};
   Studio studio;
   std::vector<std::string> words(argv + 1, argv + argc), wanted;
   std::vector<std::string> places;
