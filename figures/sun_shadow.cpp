@@ -24,7 +24,7 @@ struct Place {
 };
 
 Place boxOnFloor() {
-  Place place{"box", {}, lookAt(Vec3(2.2f, 2.0f, 3.4f), Vec3(0, 0.25f, 0), 36)};
+  Place place{"box", {}, lookAt(Vec3(-2.4f, 2.3f, 3.2f), Vec3(-0.2f, 0.25f, 0), 36)};
   scene::addTo(place.scene, scene::gridPlane(5, 5, 100, 100),
                diffuseMaterial(Rgb(0.75f, 0.72f, 0.68f)));
   scene::addTo(place.scene,
@@ -34,7 +34,7 @@ Place boxOnFloor() {
 }
 
 Place bunnyOnPlane(const Studio& studio) {
-  Place place{"bunny", {}, lookAt(Vec3(2.6f, 2.2f, 4.4f), Vec3(0, 0.7f, 0), 38)};
+  Place place{"bunny", {}, lookAt(Vec3(-3.0f, 2.6f, 4.0f), Vec3(-0.3f, 0.7f, 0), 38)};
   scene::addTo(place.scene, scene::gridPlane(6, 6, 120, 120),
                diffuseMaterial(Rgb(0.75f, 0.72f, 0.68f)));
   const scene::Scene bunny = studio.load("bunny.obj");
@@ -79,18 +79,16 @@ float exposureOf(const image::Image& picture) {
 }  // namespace
 
 void sunShadow(const Studio& studio) {
-  const int width = studio.pixels(480), height = studio.pixels(360);
+  const int width = studio.pixels(320), height = studio.pixels(240);
   const std::vector<double> elevations = {5, 15, 30, 60};
   fmt::print(
-      "| scene | Sun's elevation | 5 bands | 5 bands, minimal window | sharp | sharp without its "
+      "| scene | Sun's elevation | 5 bands | 5 bands, minimal window | sharp | sharp, without the "
+      "Sun's "
       "bounces | noise of the truth | GL against rays |\n|---|---|---|---|---|---|---|---|\n");
   for (const Place& place : {boxOnFloor(), bunnyOnPlane(studio)}) {
     macro::BakeOptions options;
     options.directions = studio.directions(), options.keepShadowed = true;
     const asset::Asset both = bake(place.scene, options).asset;
-    asset::Asset alone = both;
-    for (transfer::EncodedMesh& mesh : alone.transfer.meshes)
-      std::get<transfer::Surface<transfer::Numbers>>(mesh).responses.drop(transfer::Kind::Shadowed);
     const trace::RayScene rays = orDie(trace::RayScene::build(place.scene));
     Sheet sheet;
     sheet.columnLabels = {"5 bands", "5 bands, minimal window", "sharp Sun (GL)", "path-traced"};
@@ -101,17 +99,25 @@ void sunShadow(const Studio& studio) {
       sh::RgbCoefficients minimal = light;
       sh::applyWindow(sh::minimalRinging(light), minimal);
       reference::PathTraceOptions traced;
-      traced.samples = studio.paths(1024), traced.bounces = both.transfer.bounces;
+      traced.samples = studio.paths(128), traced.bounces = both.transfer.bounces;
       const reference::Picture truth =
           orDie(reference::picture(place.scene, rays, sky, place.camera, width, height, traced));
       shade::PictureOptions shown;
       shown.width = width, shown.height = height, shown.samples = 16;
-      const auto picture = [&](const asset::Asset& asset, const sh::RgbCoefficients& relit) {
-        return orDie(reference::relitPicture(asset, relit, sky, place.camera, shown));
+      const auto picture = [&](const sh::RgbCoefficients& relit) {
+        return orDie(reference::relitPicture(both, relit, sky, place.camera, shown));
       };
-      const image::Image soft = picture(both, light), windowed = picture(both, minimal);
+      const image::Image soft = picture(light), windowed = picture(minimal);
       shown.sun = shade::sharpSunOf(sky, std::vector<double>(std::size_t(bands), 1.0));
-      const image::Image sharp = picture(both, light), unbounced = picture(alone, light);
+      const image::Image sharp = picture(light);
+      // As if nothing but the sky bounced: the Sun's share of all transfer is taken out.
+      sh::RgbCoefficients rest = light;
+      for (std::size_t i = 0; i < rest.values.size(); ++i)
+        rest.values[i] -= shown.sun->share.values[i];
+      shade::PictureOptions direct = shown;
+      direct.sun->share = sh::RgbCoefficients(bands);
+      const image::Image unbounced =
+          orDie(reference::relitPicture(both, rest, sky, place.camera, direct));
       const image::Image gl = orDie(render::picture(both, light, sky, place.camera, shown));
       double noise = 0, power = 0;
       for (std::size_t i = 0; i < truth.mean.pixels.size(); ++i) {
