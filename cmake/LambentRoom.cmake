@@ -39,7 +39,7 @@ if(LAMBENT_LLD AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
 endif()
 
 # The rooms whose code the fuzzer watches: those that read bytes which come from anywhere.
-set(fuzzed_rooms file image scene_io asset light sources view)
+set(fuzzed_rooms file image scene_io asset light sky sources view)
 
 set_property(GLOBAL PROPERTY LAMBENT_ROOMS "")
 

@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-all=(gltf obj ply asset rtt exr hdr png jpeg webp light view source)
+all=(gltf obj ply asset rtt exr hdr png jpeg webp light view source atmosphere)
 seconds=5 coverage= targets=()
 usage() {
   sed -n 's/^# \{0,1\}//; 2,10p' "$0" >&2
@@ -110,6 +110,7 @@ sources_of() {
     light) room=light names=light_file ;;
     view) room=view names=view_state_json ;;
     source) room=sources names="files formulas numbers source" ;;
+    atmosphere) room=sky names="atmosphere_file atmosphere_json member_reader" ;;
   esac
   printf "$room/%s.cpp " $names
 }
@@ -126,7 +127,7 @@ for target in "${targets[@]}"; do
     > "$log" 2>&1 || code=$?
   figure() { sed -n "s/^stat::$1: *//p" "$log"; }
   reached=$(grep -ao 'cov: [0-9]* ft: [0-9]*' "$log" | tail -n 1)
-  printf '%-7s %9s executions  %6s a second  %-24s  ' "$target" \
+  printf '%-10s %9s executions  %6s a second  %-24s  ' "$target" \
     "$(figure number_of_executed_units)" "$(figure average_exec_per_sec)" "${reached:-no coverage}"
   if [ "$code" -eq 0 ]; then
     echo passed
@@ -159,7 +160,7 @@ if [ -n "$coverage" ]; then
         functions++; functionsReached += /^COVERED_FUNC/
       }
       END {
-        if (edges) printf "%-7s %3d of %3d functions of its reader, %4d of %4d edges (%d%%)\n",
+        if (edges) printf "%-10s %3d of %3d functions of its reader, %4d of %4d edges (%d%%)\n",
           target, functionsReached, functions, edgesReached, edges, 100 * edgesReached / edges
       }' "$log"
   done

@@ -18,6 +18,7 @@ const std::string_view kOverviewFooter = R"(In the sequence in which a person us
   lambent compare truth.exr ours.exr --strip strip.png how far from the truth is it?
   lambent rtt weave -o weave.rtt                       a patch of texture with depth
   lambent synthesize model.glb --rtt weave.rtt -o woven.glb   spread over a surface
+  lambent sky --date 2026-06-21 --time 05:40 --utc-offset 2 --lat 46.2 --lon 6.1 -o sky.exr
 
 'lambent VERB --help' explains a verb with examples.
 Exit codes: 0 done, 1 the work failed, 2 wrong usage, 3 bad input.

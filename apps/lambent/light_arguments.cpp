@@ -40,8 +40,8 @@ void LightArguments::addWindowTo(CLI::App& app) {
 
 Result<light::Environment> LightArguments::environment(const ReadingArguments& reading,
                                                        Console& console) const {
-  auto parsed =
-      console.stage("light", [&] { return sources::parseSource(source, reading.forSource(console.progress())); });
+  auto parsed = console.stage(
+      "light", [&] { return sources::parseSource(source, reading.forSource(console.progress())); });
   if (!parsed) return parsed.error();
   console.report(parsed->findings);
   if (rotateY == 0.0) return std::move(parsed->value);
@@ -58,6 +58,13 @@ Result<sh::RgbCoefficients> LightArguments::coefficients(const light::Environmen
     light::soften(*parsed, light);
     return light;
   });
+}
+
+std::optional<shade::SharpSun> LightArguments::sharpSun(const light::Environment& environment,
+                                                        int bands) const {
+  const auto parsed = light::parseWindowing(window);
+  if (!parsed || !light::sunOf(environment)) return std::nullopt;
+  return shade::sharpSunOf(environment, light::windowOf(*parsed, environment.project(bands)));
 }
 
 }  // namespace lambent::tool

@@ -9,6 +9,7 @@
 #include "lambent/light/environment.h"
 #include "lambent/report/result.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/shade/sharp_sun.h"
 
 namespace CLI {
 class Option;
@@ -28,6 +29,8 @@ struct LightArguments {
   /// The environment in n bands, windowed.
   Result<sh::RgbCoefficients> coefficients(const light::Environment& environment, int bands,
                                            Console& console) const;
+  /// The environment's Sun, if it has one, with its share of what coefficients() makes.
+  std::optional<shade::SharpSun> sharpSun(const light::Environment& environment, int bands) const;
 };
 
 }  // namespace lambent::tool

@@ -56,11 +56,11 @@ int runTool(int argc, char** argv) {
   root.footer(std::string(kOverviewFooter));
 
   ConsoleOptions options;
-  const std::array verbs = {addBake(root, options),      addLight(root, options),
-                            addShade(root, options),     addRender(root, options),
-                            addReference(root, options), addCompare(root, options),
-                            addRtt(root, options),       addSynthesize(root, options),
-                            addView(root, options),      addInfo(root, options)};
+  const std::array verbs = {
+      addBake(root, options),   addLight(root, options),      addShade(root, options),
+      addRender(root, options), addReference(root, options),  addCompare(root, options),
+      addRtt(root, options),    addSynthesize(root, options), addView(root, options),
+      addSky(root, options),    addInfo(root, options)};
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

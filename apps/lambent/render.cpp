@@ -56,6 +56,8 @@ Examples:
       Linear radiance, to measure or to compare.
   lambent render bunny.glb --view state.json -o bunny.png --samples 64
       What was set up in 'lambent view' and saved there, as a smoother picture.
+  lambent render bunny.glb --light sky:sun-elevation=20,sun-azimuth=140 -o bunny.png --background
+      The sky by day, with the Sun's own sharp shadow (bake with --keep-shadowed).
   lambent render bird.glb --light sky.exr -o flat.png --macro shadowed --view-dependence off
       A surface with meso-structure, without light that its shape bounces, and pasted on.
 )";
@@ -87,7 +89,10 @@ Result<Shot> shotOf(const RenderRequest& arguments, const asset::Asset& asset, C
   if (!light) return light.error();
   const auto camera = arguments.view.choose(asset.scene);
   if (!camera) return camera.error();
-  return Shot{*environment, *light, *camera};
+  std::optional<shade::SharpSun> sun;
+  if (arguments.showing.sunShadow == shade::SunShadow::Sharp)
+    sun = arguments.light.sharpSun(*environment, asset.transfer.bands);
+  return Shot{*environment, *light, *camera, std::move(sun)};
 }
 
 Status runRender(RenderRequest arguments, Console& console) {
@@ -103,6 +108,7 @@ Status runRender(RenderRequest arguments, Console& console) {
                                            arguments.development);
     if (!read) return read.error();
     state = *read;
+    if (arguments.given("--sun-shadow")) state->sunShadow = arguments.showing.sunShadow;
     files.readsLight("the light of --view", state->environment);
     if (Status distinct = files.check(); !distinct) return distinct;
   }
@@ -115,9 +121,11 @@ Status runRender(RenderRequest arguments, Console& console) {
             : shotOf(arguments, *asset, console);
   if (!shot) return shot.error();
 
-  const shade::PictureOptions options =
+  shade::PictureOptions options =
       state ? pictureOptions(arguments, *state) : pictureOptions(arguments);
   if (Status s = checkHeld(*asset, options.showing, arguments.asset); !s) return s;
+  options.sun = shot->sun;
+  if (options.sun) console.report(shade::sharpSunFindings(*asset, options.showing));
   const auto backend =
       arguments.backend == Backend::Gl ? &render::picture : &reference::relitPicture;
   const auto began = std::chrono::steady_clock::now();
@@ -150,6 +158,7 @@ Status runRender(RenderRequest arguments, Console& console) {
       {{"output", arguments.output.string()},
        {"backend", name},
        {"exposure", ev},
+       {"sun_shadow", !options.sun ? nlohmann::json() : nlohmann::json("sharp")},
        {"seconds", seconds},
        {"picture", describe(*picture).json}},
       fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", arguments.output.string(),
@@ -186,6 +195,7 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
   arguments->showing.addLobeTo(*app, "Picture");
   arguments->showing.addTo(*app);
   arguments->showing.addFilterTo(*app);
+  arguments->showing.addSunTo(*app);
   arguments->development.addTo(*app);
   arguments->light.addWindowTo(*app);
   arguments->reading.addTo(*app);

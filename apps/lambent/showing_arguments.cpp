@@ -54,6 +54,15 @@ void ShowingArguments::addFilterTo(CLI::App& app) {
       ->group("Meso-structure");
 }
 
+void ShowingArguments::addSunTo(CLI::App& app) {
+  addChoice(app, "--sun-shadow", sunShadow,
+            {{"sharp", shade::SunShadow::Sharp}, {"soft", shade::SunShadow::Soft}},
+            "Shadows that the Sun (the light's brightest disc of 5° or less) throws on diffuse "
+            "surfaces: sharp (a shadow map; on the CPU, rays), or soft, as the harmonics have them")
+      ->option_text("sharp|soft")
+      ->group("Transfer");
+}
+
 shade::Showing ShowingArguments::showing() const {
   shade::Showing result = shade::Showing::of(transfer);
   if (macro) result.mesoStructure = macro;

@@ -7,6 +7,7 @@
 
 #include "lambent/asset/asset.h"
 #include "lambent/report/result.h"
+#include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 #include "lambent/view/view_state.h"
 
@@ -17,6 +18,7 @@ struct ShowingArguments {
   std::optional<transfer::Kind> macro;     ///< none: as transfer
   bool viewDependent = true, filter = true;
   std::optional<double> lobeExponent;
+  shade::SunShadow sunShadow = shade::SunShadow::Sharp;
 
   /// --lobe.
   void addLobeTo(CLI::App& app, const char* group);
@@ -24,6 +26,9 @@ struct ShowingArguments {
   void addTo(CLI::App& app);
   /// --filter.
   void addFilterTo(CLI::App& app);
+
+  /// --sun-shadow.
+  void addSunTo(CLI::App& app);
 
   shade::Showing showing() const;
   /// What a state says, where no flag of `app` says otherwise.

@@ -58,11 +58,11 @@ Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
   if (!parsed) return parsed.error();
   console.report(parsed->findings);
   const light::Environment& environment = parsed->value;
-  return Shot{
-      view::assetEnvironment(state, environment),
-      console.stage("project",
-                    [&] { return view::StateLight(environment, options.bands).asset(state); }),
-      view::assetCamera(state, camera)};
+  return console.stage("project", [&] {
+    view::StateLight light(environment, options.bands);
+    return Shot{view::assetEnvironment(state, environment), light.asset(state),
+                view::assetCamera(state, camera), light.sharpSun(state)};
+  });
 }
 
 }  // namespace lambent::tool

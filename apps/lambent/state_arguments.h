@@ -9,6 +9,7 @@
 #include "lambent/light/environment.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
+#include "lambent/shade/sharp_sun.h"
 #include "lambent/view/view_state.h"
 
 namespace lambent::tool {
@@ -31,6 +32,7 @@ struct Shot {
   light::Environment environment;
   sh::RgbCoefficients light;  ///< windowed
   scene::Camera camera;
+  std::optional<shade::SharpSun> sun;  ///< where its shadows are to be sharp
 };
 
 struct ShotOptions {

@@ -27,6 +27,7 @@ Verb addCompare(CLI::App& root, ConsoleOptions& common);
 Verb addRtt(CLI::App& root, ConsoleOptions& common);
 Verb addSynthesize(CLI::App& root, ConsoleOptions& common);
 Verb addView(CLI::App& root, ConsoleOptions& common);
+Verb addSky(CLI::App& root, ConsoleOptions& common);
 Verb addInfo(CLI::App& root, ConsoleOptions& common);
 
 }  // namespace lambent::tool

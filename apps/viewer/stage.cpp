@@ -135,7 +135,7 @@ Status Stage::prepare(const view::ViewState& state, const PixelSize& size, bool 
     return lit ? Status::ok() : Status(lit.error());
   }
   renderer_->setLight(light_->asset(state));
-  return Status::ok();
+  return renderer_->setSun(light_->sharpSun(state));
 }
 
 Status Stage::addSample(const view::ViewState& state, const PixelSize& size, const Vec2& place,

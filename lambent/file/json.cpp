@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace lambent::file {
 namespace {
@@ -48,6 +50,23 @@ Result<nlohmann::json> parseJson(std::string_view text) {
     if (reason.size() <= kLongestReason) return report::badInput(std::string(reason));
     return report::badInput(std::string(reason.substr(0, kLongestReason)) + "...");
   }
+}
+
+std::optional<std::string> repeatedKey(std::string_view text) {
+  using Event = nlohmann::json::parse_event_t;
+  std::optional<std::string> repeated;
+  std::vector<std::set<std::string>> open;  // the keys of every object that is not yet closed
+  const auto look = [&](int, Event event, nlohmann::json& value) {
+    if (event == Event::object_start) open.emplace_back();
+    if (event == Event::object_end) open.pop_back();
+    if (event == Event::key && !repeated) {
+      const std::string& key = value.get_ref<const std::string&>();
+      if (!open.back().insert(key).second) repeated = key;
+    }
+    return true;
+  };
+  [[maybe_unused]] const nlohmann::json again = nlohmann::json::parse(text, look, false);
+  return repeated;
 }
 
 nlohmann::json& arrayAt(nlohmann::json& object, const char* key) {

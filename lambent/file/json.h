@@ -3,6 +3,8 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "lambent/report/result.h"
@@ -14,6 +16,10 @@ inline constexpr int kDeepestJson = 200;
 
 /// BadInput says what is wrong and at which place, without the file's name.
 Result<nlohmann::json> parseJson(std::string_view text);
+
+/// The first key that stands twice in one object; of two values parseJson() keeps the last. `text` is
+/// what parseJson() took.
+std::optional<std::string> repeatedKey(std::string_view text);
 
 /// What stands in an object at `key`; if nothing does, an empty array or object that is put there.
 /// operator[] and push_back would make them of null, too, but where they get no memory they leave

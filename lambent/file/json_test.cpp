@@ -42,6 +42,13 @@ TEST(Json, DamageIsPlaced) {
   EXPECT_LT(parseJson("[\"" + std::string(100000, 'x')).error().message.size(), 400u);
 }
 
+TEST(Json, ARepeatedKeyIsFound) {
+  EXPECT_FALSE(repeatedKey(R"({"a": 1, "b": {"a": 2, "b": [{"a": 3}, {"a": 4}]}, "c": "a"})"));
+  EXPECT_EQ(repeatedKey(R"({"a": 1, "b": {"a": 2}, "a": {"x": 1, "x": 2}})"), "a");
+  EXPECT_EQ(repeatedKey(R"([{"b": [{"c": 1, "\u0063": 2}]}])"), "c");
+  EXPECT_FALSE(repeatedKey("[1, []]"));
+}
+
 TEST(Json, WhatStandsInAnObjectOrIsPutThere) {
   nlohmann::json object = {{"held", {1, 2}}};
   arrayAt(object, "held").push_back(3);

@@ -1,4 +1,4 @@
-// OpenEXR pictures. The library does the decompression; what is chosen here:
+// OpenEXR pictures that are read. The library does the decompression; what is chosen here:
 //   - the first part of a multi-part file;
 //   - the channels R, G, B (A) if there, else luminance Y (with RY and BY: its chroma), else the
 //     first layer that has R, G, B ("beauty.R", "ViewLayer.Combined.R"), else a single channel as
@@ -11,10 +11,8 @@
 #include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfTestFile.h>
@@ -30,6 +28,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "lambent/image/exr_streams.h"
 #include "lambent/image/formats.h"
 
 namespace lambent::image::formats {
@@ -45,44 +44,6 @@ size_t maxPixelsPerByte(Imf::Compression compression) {
   const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
   return dwa ? 65536 : 600;
 }
-
-class MemoryInput : public Imf::IStream {
- public:
-  MemoryInput(Bytes bytes, const char* name) : Imf::IStream(name), bytes_(bytes) {}
-
-  bool read(char out[], int count) override {
-    if (count < 0 || at_ > bytes_.size() || bytes_.size() - at_ < size_t(count)) {
-      throw std::runtime_error("the file ends too early, at byte " + std::to_string(bytes_.size()));
-    }
-    std::memcpy(out, bytes_.data() + at_, size_t(count));
-    at_ += size_t(count);
-    return at_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return at_; }
-  void seekg(std::uint64_t position) override { at_ = position; }
-
- private:
-  Bytes bytes_;
-  std::uint64_t at_ = 0;
-};
-
-class MemoryOutput : public Imf::OStream {
- public:
-  explicit MemoryOutput(const char* name) : Imf::OStream(name) {}
-
-  void write(const char data[], int count) override {
-    if (bytes.size() < at_ + size_t(count)) bytes.resize(at_ + size_t(count));
-    std::memcpy(bytes.data() + at_, data, size_t(count));
-    at_ += size_t(count);
-  }
-  std::uint64_t tellp() override { return at_; }
-  void seekp(std::uint64_t position) override { at_ = position; }
-
-  std::vector<std::byte> bytes;
-
- private:
-  std::uint64_t at_ = 0;
-};
 
 struct Channels {
   std::array<std::string, 3> colour;  ///< the same name three times: grey
@@ -313,38 +274,6 @@ Result<Image> readChecked(Bytes bytes, std::string_view name, file::Budget& budg
   return readColour(part, *channels, *windows);
 }
 
-/// One channel's pixels in the type that goes to the file.
-struct Plane {
-  std::string name;
-  std::vector<char> data;
-};
-
-Plane makePlane(std::string name, size_t count, bool halfFloat, const auto& valueAt) {
-  Plane plane{std::move(name), std::vector<char>(count * (halfFloat ? 2 : 4))};
-  for (size_t i = 0; i < count; ++i) {
-    const float value = valueAt(i);
-    if (halfFloat) {
-      const Imath::half h(std::isfinite(value) ? std::clamp(value, -65504.0f, 65504.0f) : value);
-      std::memcpy(plane.data.data() + 2 * i, &h, 2);
-    } else {
-      std::memcpy(plane.data.data() + 4 * i, &value, 4);
-    }
-  }
-  return plane;
-}
-
-void addPlanes(const Image& image, const std::string& prefix, bool halfFloat,
-               std::vector<Plane>& planes) {
-  for (int c = 0; c < 3; ++c) {
-    planes.push_back(makePlane(prefix + "RGB"[c], image.pixels.size(), halfFloat,
-                               [&](size_t i) { return image.pixels[i][c]; }));
-  }
-  if (!image.alpha.empty()) {
-    planes.push_back(makePlane(prefix + "A", image.alpha.size(), halfFloat,
-                               [&](size_t i) { return image.alpha[i]; }));
-  }
-}
-
 }  // namespace
 
 bool isExr(Bytes bytes) {
@@ -363,46 +292,6 @@ Result<Image> readExr(Bytes bytes, std::string_view name, file::Budget& budget,
     std::replace(what.begin(), what.end(), '\n', ' ');
     return report::badInput(std::string(name) + ": cannot be read as OpenEXR: " + what +
                             " The file is damaged or cut off");
-  }
-}
-
-Result<std::vector<std::byte>> writeExr(const Image& image, std::string_view name,
-                                        const WriteOptions& options) {
-  std::vector<Plane> planes;
-  addPlanes(image, "", options.halfFloat, planes);
-  for (const auto& [layer, picture] : options.layers) {
-    if (picture->width != image.width || picture->height != image.height) {
-      return report::badUsage(std::string(name) + ": the layer " + layer +
-                              " has another size than the picture");
-    }
-    addPlanes(*picture, layer + ".", options.halfFloat, planes);
-  }
-  const Imf::PixelType type = options.halfFloat ? Imf::HALF : Imf::FLOAT;
-  const size_t size = options.halfFloat ? 2 : 4;
-  try {
-    Imf::Header header(image.width, image.height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    Imf::FrameBuffer frame;
-    for (Plane& plane : planes) {
-      header.channels().insert(plane.name, Imf::Channel(type));
-      frame.insert(plane.name, Imf::Slice(type, plane.data.data(), size, size * image.width));
-    }
-    const std::string streamName(name);
-    MemoryOutput output(streamName.c_str());
-    {
-      Imf::OutputFile file(output, header);
-      file.setFrameBuffer(frame);
-      file.writePixels(image.height);
-    }
-    // Of blocks that could not be packed, for want of memory, the library (3.1.5) says nothing and
-    // leaves them out.
-    MemoryInput input(output.bytes, streamName.c_str());
-    if (!Imf::MultiPartInputFile(input, 0, false).partComplete(0)) throw std::bad_alloc();
-    return std::move(output.bytes);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& problem) {
-    return report::failed(std::string(name) + ": cannot be written as OpenEXR: " + problem.what());
   }
 }
 

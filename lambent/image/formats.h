@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lambent/file/budget.h"
+#include "lambent/image/channels.h"
 #include "lambent/image/image.h"
 #include "lambent/image/io.h"
 #include "lambent/report/result.h"
@@ -40,6 +41,7 @@ Result<Codes> readWebP(Bytes bytes, std::string_view name, file::Budget& budget)
 
 Result<std::vector<std::byte>> writeExr(const Image& image, std::string_view name,
                                         const WriteOptions& options);
+Result<std::vector<std::byte>> writeExr(const ChannelImage& image, std::string_view name);
 std::vector<std::byte> writeHdr(const Image& image);
 Result<std::vector<std::byte>> writePng(const Image& image, std::string_view name);
 

@@ -5,6 +5,7 @@
 
 #include "lambent/file/atomic_file.h"
 #include "lambent/file/extension.h"
+#include "lambent/image/channels.h"
 #include "lambent/image/decode.h"
 #include "lambent/image/formats.h"
 #include "lambent/radiometry/srgb.h"
@@ -165,6 +166,27 @@ Status write(const Image& image, const std::filesystem::path& path, const WriteO
   }
   try {
     const Result<std::vector<std::byte>> bytes = encode(image, path, options);
+    if (!bytes) return bytes.error();
+    return file::writeAtomically(path, *bytes);
+  } catch (const std::bad_alloc&) {
+    return report::failed(path.string() + ": not enough memory to write the picture");
+  }
+}
+
+Status write(const ChannelImage& image, const std::filesystem::path& path) {
+  if (file::extensionOf(path) != ".exr")
+    return report::badUsage(path.string() + ": channels of any name are written as .exr alone");
+  if (image.width <= 0 || image.height <= 0 || image.channels.empty())
+    return report::badUsage(path.string() + ": a picture without pixels cannot be written");
+  for (size_t i = 0; i < image.channels.size(); ++i) {
+    assert(image.channels[i].values.size() == size_t(image.width) * size_t(image.height));
+    for (size_t j = 0; j < i; ++j)
+      if (image.channels[i].name == image.channels[j].name)
+        return report::badUsage(path.string() + ": two channels are called " +
+                                image.channels[i].name);
+  }
+  try {
+    const Result<std::vector<std::byte>> bytes = formats::writeExr(image, path.string());
     if (!bytes) return bytes.error();
     return file::writeAtomically(path, *bytes);
   } catch (const std::bad_alloc&) {

@@ -31,18 +31,23 @@ Result<Windowing> parseWindowing(std::string_view text) {
   return windowing;
 }
 
-void soften(const Windowing& windowing, sh::RgbCoefficients& light) {
+std::vector<double> windowOf(const Windowing& windowing, const sh::RgbCoefficients& light) {
   const double width = windowing.width > 0.0 ? windowing.width : double(light.bands);
   switch (windowing.kind) {
     case Windowing::Kind::None:
-      return;
+      break;
     case Windowing::Kind::Hann:
-      return sh::applyWindow(sh::hann(light.bands, width), light);
+      return sh::hann(light.bands, width);
     case Windowing::Kind::Lanczos:
-      return sh::applyWindow(sh::lanczos(light.bands, width), light);
+      return sh::lanczos(light.bands, width);
     case Windowing::Kind::Minimal:
-      return sh::applyWindow(sh::minimalRinging(light), light);
+      return sh::minimalRinging(light);
   }
+  return std::vector<double>(std::size_t(light.bands), 1.0);
+}
+
+void soften(const Windowing& windowing, sh::RgbCoefficients& light) {
+  if (windowing.kind != Windowing::Kind::None) sh::applyWindow(windowOf(windowing, light), light);
 }
 
 }  // namespace lambent::light

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "lambent/report/result.h"
 #include "lambent/sh/coefficients.h"
@@ -18,6 +19,8 @@ struct Windowing {
 /// none | minimal | hann | lanczos | hann:WIDTH | lanczos:WIDTH. BadUsage says how it is written.
 Result<Windowing> parseWindowing(std::string_view text);
 
+/// What each band of the light is multiplied with (see sh/window.h); all ones for none.
+std::vector<double> windowOf(const Windowing& windowing, const sh::RgbCoefficients& light);
 /// Multiplies every band of the light (see sh/window.h). A window is the same in every direction,
 /// so it does not matter whether a light is turned before or after.
 void soften(const Windowing& windowing, sh::RgbCoefficients& light);

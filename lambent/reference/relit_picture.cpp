@@ -3,7 +3,9 @@
 // surface, and the lobe-convolved coefficients of transferred radiance of a glossy one, which are
 // evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows the
 // environment, unblocked: "a traditional environment map". With meso-structure it is the light that
-// arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003biscale §5).
+// arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003biscale §5). Under a
+// sharp Sun each sub-sample asks by one ray whether its own point of the Sun's disc is seen: rays
+// start where those of the path tracer do, and are blocked by fronts and backs alike.
 
 #include "lambent/reference/relit_picture.h"
 
@@ -13,7 +15,6 @@
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/picture_frame.h"
 #include "lambent/shade/rtt_footprint.h"
-#include "lambent/shade/unshadowed.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/work/runner.h"
 
@@ -26,12 +27,26 @@ using BiScale = transfer::BiScale<Numbers>;
 
 struct LitScene {
   const asset::Asset& asset;
+  const trace::RayScene& rays;
   const light::Environment& environment;
+  const shade::Showing& showing;
   shade::SampleWidth width;
   std::vector<shade::LitMesh> meshes;                ///< of bare surfaces
   std::map<std::uint32_t, shade::LitPatch> patches;  ///< of meshes with meso-structure
 
-  Rgb exitRadiance(const trace::Hit& hit, const Vec3& toViewer) const {
+  /// What falls directly from a point of a sharp Sun and is sent on by a diffuse surface.
+  Rgb sunlit(const scene::SurfacePoint& point, transfer::Kind shown,
+             const light::SunPoint& sun) const {
+    const float cosine = point.normal.dot(sun.direction);
+    if (!(cosine > 0)) return Rgb::Zero();
+    if (shown != transfer::Kind::Unshadowed &&
+        rays.occluded(point.position + rays.offset() * point.normal, sun.direction))
+      return Rgb::Zero();
+    return point.diffuse * sun.irradiance * (cosine / float(kPi));
+  }
+
+  /// `sun`: null without a sharp one.
+  Rgb exitRadiance(const trace::Hit& hit, const Vec3& toViewer, const light::SunPoint* sun) const {
     if (hit.backFace) return Rgb::Zero();
     const scene::Scene& scene = asset.scene;
     const scene::Mesh& mesh = scene.meshes[hit.mesh];
@@ -53,7 +68,11 @@ struct LitScene {
              : shade::ReceiverWeights::ofTriangle(mesh.triangles[hit.triangle], hit.u, hit.v);
     const shade::LitMesh& lit = meshes[hit.mesh];
     const Rgb diffuse = lit.diffuseAt(at);
-    return (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) + lit.glossyAt(at, reflected) * base;
+    Rgb sum =
+        (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) + lit.glossyAt(at, reflected) * base;
+    if (sun && !lit.diffuse.empty())
+      sum += sunlit(point, shade::kindShown(asset.transfer.meshes[hit.mesh], showing), *sun);
+    return sum;
   }
 };
 
@@ -67,24 +86,26 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
   Result<trace::RayScene> rays = trace::RayScene::build(asset.scene);
   if (!rays) return rays.error();
 
-  LitScene lit{
-      asset, environment, shade::sampleWidth(camera, options.height, options.samples), {}, {}};
+  LitScene lit{asset,
+               *rays,
+               environment,
+               options.showing,
+               shade::sampleWidth(camera, options.height, options.samples),
+               {},
+               {}};
   shade::RttPyramids pyramids(asset.transfer, options.showing.filter);
   for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m) {
-    const transfer::EncodedMesh& mesh = asset.transfer.meshes[m];
-    shade::LitMesh& surface = lit.meshes.emplace_back();
-    if (const auto* biScale = std::get_if<BiScale>(&mesh))
+    lit.meshes.push_back(shade::lightSurface(asset, m, light, options.showing, options.sun));
+    if (const auto* biScale = std::get_if<BiScale>(&asset.transfer.meshes[m]))
       lit.patches.emplace(
           m, shade::LitPatch(asset, m, pyramids.of(biScale->patch.rtt), light, options.showing));
-    else if (std::holds_alternative<Surface>(mesh))
-      surface =
-          shade::lightMesh(*shade::responseUnder(asset, m, shade::kindShown(mesh, options.showing)),
-                           light, options.showing.lobeExponent);
   }
 
   const int width = options.width, height = options.height;
   const std::vector<Vec2> positions = scene::subpixelPositions(options.samples);
   const float share = 1.0f / float(positions.size());
+  std::vector<light::SunPoint> sun;
+  if (options.sun) sun = light::pointsOf(options.sun->sun, options.samples);
   image::Image image(width, height);
   image.alpha.resize(image.pixels.size());
 
@@ -95,12 +116,13 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
     for (int x = 0; x < width; ++x) {
       Rgb sum = Rgb::Zero();
       int covered = 0;
-      for (const Vec2& p : positions) {
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vec2& p = positions[i];
         const scene::Ray ray = scene::cameraRay(camera, width, height, x + p.x(), y + p.y());
         const std::optional<trace::Hit> hit = rays->closest(ray.origin, ray.direction);
         if (!hit) continue;
         ++covered;
-        sum += lit.exitRadiance(*hit, -ray.direction);
+        sum += lit.exitRadiance(*hit, -ray.direction, sun.empty() ? nullptr : &sun[i]);
       }
       image.at(x, y) = share * sum;
       image.alpha[std::size_t(y) * width + x] = float(covered) / float(positions.size());

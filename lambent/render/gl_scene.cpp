@@ -49,6 +49,10 @@ Result<GlScene> GlScene::makeLit(const asset::Asset& asset, const sh::RgbCoeffic
                                  const GlSceneOptions& options) {
   GlScene scene(asset, options, TransferOnGpu::Residence::Stream);
   scene.transfer_.setLight(light);
+  if (options.sunShare) {
+    scene.transfer_.setSunShare(options.sunShare);
+    scene.surfaces_.setSharpSun(true);
+  }
   if (Status s = scene.addAll(); !s) return s.error();
   return scene;
 }
@@ -100,6 +104,40 @@ Status GlScene::relight() {
   return checkGl("applying transfer to the light");
 }
 
+Status GlScene::setSunShare(const std::optional<sh::RgbCoefficients>& share) {
+  transfer_.setSunShare(share);
+  if (share.has_value() == sharpSun_) return Status::ok();
+  surfaces_.setSharpSun(share.has_value());
+  auto ofSurfaces = surfaces_.lightUnder(options_.showing, transfer_);
+  if (!ofSurfaces) {
+    surfaces_.setSharpSun(sharpSun_);
+    return ofSurfaces.error();
+  }
+  surfaces_.setLight(std::move(*ofSurfaces));
+  sharpSun_ = share.has_value();
+  return Status::ok();
+}
+
+Status GlScene::mapSun(const GlView& view) {
+  if (!view.sun || view.unlit) return Status::ok();
+  if (!sunMap_) {
+    Result<GlSunMap> made = GlSunMap::make(options_.largestTexture);
+    if (!made) return made.error();
+    sunMap_.emplace(std::move(*made));
+  }
+  glBindVertexArray(noAttributes_.name());
+  sunMap_->draw(*view.sun, view, bounds_, [&] {
+    const auto drawPiece = [&](std::uint32_t, GLuint vertices, GLuint corners, int count) {
+      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices);
+      glVertexArrayElementBuffer(noAttributes_.name(), corners);
+      glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+    };
+    surfaces_.drawUnlit(drawPiece);
+    patches_.drawUnlit(drawPiece);
+  });
+  return checkGl("drawing the Sun's shadows");
+}
+
 void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
   glFrontFace(view.mirrored ? GL_CW : GL_CCW);
   glBindVertexArray(noAttributes_.name());
@@ -108,7 +146,8 @@ void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
     drawUnlit(view);
     return;
   }
-  surfaces_.draw(view, environment, colors_, noAttributes_.name());
+  surfaces_.draw(view, environment, colors_, sunMap_ ? &*sunMap_ : nullptr, options_.showing,
+                 noAttributes_.name());
   patches_.draw(view, noAttributes_.name());
 }
 

@@ -7,6 +7,7 @@
 #include "lambent/render/gl_environment.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_patches.h"
+#include "lambent/render/gl_sun_map.h"
 #include "lambent/render/gl_surfaces.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
@@ -14,10 +15,14 @@
 
 namespace lambent::render {
 
+/// Bytes of one storage buffer, where GL takes as many.
+inline constexpr std::size_t kLargestBlock = std::size_t(128) << 20;
+
 struct GlSceneOptions {
   std::size_t largestBlock = 0;  ///< bytes of one storage buffer
   int largestTexture = 0;        ///< side, in texels
   shade::Showing showing;
+  std::optional<sh::RgbCoefficients> sunShare;  ///< of makeLit's light, of a sharp Sun
 };
 
 class GlScene {
@@ -34,12 +39,18 @@ class GlScene {
   /// is due.
   Status choose(const shade::Showing& showing);
   void setLight(const sh::RgbCoefficients& light) { transfer_.setLight(light); }
+  /// What a sharp Sun is of the light that is set (none: there is no such). The first one uploads what
+  /// it needs; if that fails, all stays as it was. Then relight() is due.
+  Status setSunShare(const std::optional<sh::RgbCoefficients>& share);
   /// As LiveRenderer::setLightField.
   Status setLightField(const capture::Blending& blending, GLuint lights, int bands);
   /// M · L of every receiver: GL commands alone, one dispatch for each chunk of transfer.
   Status relight();
 
   bool hasMirrors() const { return surfaces_.hasMirrors(); }
+  /// Draws what hides view.sun, if there is one, and binds another framebuffer for that: before the
+  /// frame that is drawn so.
+  Status mapSun(const GlView& view);
   /// Draws all surfaces into the bound framebuffer: radiance, and 1 in alpha. Mirrors show
   /// `environment`.
   void draw(const GlView& view, const GlEnvironment& environment) const;
@@ -52,7 +63,8 @@ class GlScene {
         transfer_(options.largestBlock, residence),
         colors_(asset.scene),
         surfaces_(asset, options.largestBlock),
-        patches_(asset, {options.largestBlock, options.largestTexture}, options.showing) {}
+        patches_(asset, {options.largestBlock, options.largestTexture}, options.showing),
+        bounds_(scene::bounds(asset.scene)) {}
   Status addAll();
   Status retransfer(const shade::Showing& showing);
   void drawUnlit(const GlView& view) const;
@@ -69,6 +81,9 @@ class GlScene {
   GlBaseColors colors_;
   GlSurfaces surfaces_;
   GlPatches patches_;
+  scene::Box bounds_;
+  std::optional<GlSunMap> sunMap_;  ///< made for the first sharp Sun
+  bool sharpSun_ = false;
   Program unlit_;
   VertexArray noAttributes_;
 };

@@ -53,26 +53,38 @@ std::vector<float> gatherNormals(const scene::Mesh& mesh, const TriangleBatch& b
   return normals;
 }
 
-Result<GlSurfaces::Lit> lightOf(std::uint32_t mesh,
-                                const transfer::SurfaceResponse<transfer::Numbers>& response,
-                                const std::vector<std::uint32_t>& receivers,
-                                std::optional<float> lobeExponent, TransferOnGpu& transfer) {
-  GlSurfaces::Lit lit;
+}  // namespace
+
+/// Under a sharp Sun: M · L − D · S. Where D is M, that is M · (L − S).
+Result<GlSurfaces::Lit> GlSurfaces::lightOf(std::uint32_t mesh, const shade::Showing& showing,
+                                            const Response& response,
+                                            const std::vector<std::uint32_t>& receivers,
+                                            TransferOnGpu& transfer) const {
+  Lit lit;
   lit.mesh = mesh;
   if (response.diffuse) {
-    Result<Relit> made = transfer.diffuse(response.diffuse->vectors, receivers);
+    const transfer::EncodedMesh& encoded = asset_->transfer.meshes[mesh];
+    const transfer::Kind direct = shade::kindWithoutBounces(encoded, showing);
+    const bool apart = sharpSun_ && direct != shade::kindShown(encoded, showing);
+    Result<Relit> made =
+        transfer.diffuse(response.diffuse->vectors, receivers,
+                         sharpSun_ && !apart ? Relit::Light::WithoutSun : Relit::Light::Whole);
     if (!made) return made.error();
     lit.diffuse = std::move(*made);
+    if (apart) {
+      made = transfer.diffuse(surfaceOf(mesh)->responses.find(direct)->diffuse->vectors, receivers,
+                              Relit::Light::Sun);
+      if (!made) return made.error();
+      lit.sunShare = std::move(*made);
+    }
   }
   if (response.glossy) {
-    Result<Relit> made = transfer.lobe(*response.glossy, receivers, lobeExponent);
+    Result<Relit> made = transfer.lobe(*response.glossy, receivers, showing.lobeExponent);
     if (!made) return made.error();
     lit.lobe = std::move(*made);
   }
   return lit;
 }
-
-}  // namespace
 
 const GlSurfaces::Response* GlSurfaces::partsOf(std::uint32_t mesh) const {
   const auto* surface = surfaceOf(mesh);
@@ -107,6 +119,7 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
     for (const char* name : {"incident.glsl", "lobe.glsl"}) include(name);
   }
   if (kind == SurfaceKind::Mirror) fragment.parts.push_back(environmentSource());
+  if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
   for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
                            "texel_receivers.glsl", "corner_weights.glsl", "surface.frag.glsl"})
     include(name);
@@ -122,7 +135,7 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
 
 Status GlSurfaces::addTexels(std::uint32_t index, const transfer::AtTexels& grid,
                              const Response& response, std::size_t perReceiver,
-                             std::optional<float> lobeExponent, TransferOnGpu& transfer,
+                             const shade::Showing& showing, TransferOnGpu& transfer,
                              std::vector<std::pair<RowBand, std::size_t>>& litRows) {
   const std::vector<RowBand> bands =
       splitRows(grid.width, grid.height, largestBlock_ / perReceiver);
@@ -134,7 +147,7 @@ Status GlSurfaces::addTexels(std::uint32_t index, const transfer::AtTexels& grid
   for (const RowBand& band : bands) {
     std::vector<std::uint32_t> receivers(std::size_t(band.last - band.begin + 1) * grid.width);
     std::iota(receivers.begin(), receivers.end(), std::uint32_t(band.begin) * grid.width);
-    Result<Lit> lit = lightOf(index, response, receivers, lobeExponent, transfer);
+    Result<Lit> lit = lightOf(index, showing, response, receivers, transfer);
     if (!lit) return lit.error();
     litRows.emplace_back(band, lit_.size());
     lit_.push_back(std::move(*lit));
@@ -170,9 +183,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
                                     shade::kindShown(asset_->transfer.meshes[index], showing));
   std::vector<std::pair<RowBand, std::size_t>> litRows;
   if (grid)
-    if (Status s = addTexels(index, *grid, *response, perReceiver, showing.lobeExponent, transfer,
-                             litRows);
-        !s)
+    if (Status s = addTexels(index, *grid, *response, perReceiver, showing, transfer, litRows); !s)
       return s;
 
   for (const TriangleBatch& batch :
@@ -195,7 +206,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
       continue;
     }
     if (vertices) {
-      Result<Lit> lit = lightOf(index, *response, batch.vertices, showing.lobeExponent, transfer);
+      Result<Lit> lit = lightOf(index, showing, *response, batch.vertices, transfer);
       if (!lit) return lit.error();
       draw.lit = lit_.size();
       lit_.push_back(std::move(*lit));
@@ -214,7 +225,7 @@ Result<std::vector<GlSurfaces::Lit>> GlSurfaces::lightUnder(const shade::Showing
       response = shade::responseUnder(*asset_, old.mesh,
                                       shade::kindShown(asset_->transfer.meshes[old.mesh], showing));
     const Relit& some = old.diffuse.product.name() ? old.diffuse : old.lobe;
-    Result<Lit> made = lightOf(old.mesh, *response, some.receivers, showing.lobeExponent, transfer);
+    Result<Lit> made = lightOf(old.mesh, showing, *response, some.receivers, transfer);
     if (!made) return made.error();
     result.push_back(std::move(*made));
   }
@@ -225,6 +236,7 @@ void GlSurfaces::setLight(std::vector<Lit> light) {
   for (std::size_t i = 0; i < light.size(); ++i) {
     light[i].diffuse.blend = std::move(lit_[i].diffuse.blend);
     light[i].lobe.blend = std::move(lit_[i].lobe.blend);
+    light[i].sunShare.blend = std::move(lit_[i].sunShare.blend);
   }
   lit_ = std::move(light);
 }
@@ -239,7 +251,8 @@ void GlSurfaces::setLobe(std::optional<float> exponent) {
 }
 
 void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
-                      const GlBaseColors& colors, GLuint vertexArray) const {
+                      const GlBaseColors& colors, const GlSunMap* sunMap,
+                      const shade::Showing& showing, GLuint vertexArray) const {
   for (const Draw& draw : draws_) {
     const scene::Material& material = materialOf(draw.mesh);
     const auto* surface = surfaceOf(draw.mesh);
@@ -257,6 +270,23 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     program.set("mirror", material.mirror.x(), material.mirror.y(), material.mirror.z());
     program.set("grid", grid ? grid->width : 0, grid ? grid->height : 0);
     program.set("rows", draw.rows.begin, draw.rows.end);
+    const bool lit = draw.kind == SurfaceKind::Vertices || draw.kind == SurfaceKind::Texels;
+    const bool sunlit = lit && diffuse && view.sun.has_value();
+    if (lit) {
+      program.set("hasSunShare",
+                  int(sunlit && draw.lit && lit_[*draw.lit].sunShare.product.name()));
+      program.set("sunlit", int(sunlit));
+    }
+    if (sunlit) {
+      const Rgb sent = material.diffuse * view.sun->irradiance / float(kPi);
+      program.set("sentFromSun", sent.x(), sent.y(), sent.z());
+      program.set("sunDirection", view.sun->direction.x(), view.sun->direction.y(),
+                  view.sun->direction.z());
+      const bool hidden = sunMap && shade::kindShown(asset_->transfer.meshes[draw.mesh], showing) !=
+                                        transfer::Kind::Unshadowed;
+      program.set("sunCanHide", int(hidden));
+      if (hidden) sunMap->bind(program);
+    }
     colors.bind(program, draw.mesh);
     if (draw.kind == SurfaceKind::Mirror) environment.bind(program, view.environmentFromWorld);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());
@@ -266,6 +296,8 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3,
                      draw.lit ? lit_[*draw.lit].lobe.product.name() : 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, geometry.normals.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6,
+                     draw.lit ? lit_[*draw.lit].sunShare.product.name() : 0);
     glVertexArrayElementBuffer(vertexArray, geometry.corners.name());
     glDrawElements(GL_TRIANGLES, geometry.cornerCount, GL_UNSIGNED_INT, nullptr);
   }

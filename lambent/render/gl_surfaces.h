@@ -13,6 +13,7 @@
 #include "lambent/render/gl_base_colors.h"
 #include "lambent/render/gl_environment.h"
 #include "lambent/render/gl_objects.h"
+#include "lambent/render/gl_sun_map.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
 #include "lambent/shade/showing.h"
@@ -32,9 +33,12 @@ class GlSurfaces {
   struct Lit {
     std::uint32_t mesh = 0;
     Relit diffuse, lobe;
+    Relit sunShare;  ///< what is to be taken out of `diffuse` under a sharp Sun, if anything
   };
   /// The light of all pieces under other transfer, to be given to setLight.
   Result<std::vector<Lit>> lightUnder(const shade::Showing& showing, TransferOnGpu& transfer) const;
+  /// Whether what is lit from now on is lit by a sharp Sun, whose own light the caller draws.
+  void setSharpSun(bool sharp) { sharpSun_ = sharp; }
   void setLight(std::vector<Lit> light);
   /// Other lobes for what is lit.
   void setLobe(std::optional<float> exponent);
@@ -42,15 +46,16 @@ class GlSurfaces {
   template <class Each>
   void forEach(Each each) {
     for (Lit& lit : lit_)
-      for (Relit* relit : {&lit.diffuse, &lit.lobe})
+      for (Relit* relit : {&lit.diffuse, &lit.lobe, &lit.sunShare})
         if (relit->product.name()) each(lit.mesh, *relit);
   }
 
   bool hasMirrors() const { return hasMirrors_; }
   /// Draws them into the bound framebuffer: radiance, and 1 in alpha. A vertex array must be bound;
   /// its element buffer is changed. Mirrors show `environment`.
+  /// With view.sun: lit by it, where `sunMap` (null: nowhere) does not have it hidden.
   void draw(const GlView& view, const GlEnvironment& environment, const GlBaseColors& colors,
-            GLuint vertexArray) const;
+            const GlSunMap* sunMap, const shade::Showing& showing, GLuint vertexArray) const;
   /// Calls drawPiece(mesh, vertices, corners, count) for every piece, as GlPatches::drawUnlit.
   template <class DrawUnlit>
   void drawUnlit(DrawUnlit drawPiece) const {
@@ -77,10 +82,12 @@ class GlSurfaces {
   };
   using Response = transfer::SurfaceResponse<transfer::Numbers>;
 
+  Result<Lit> lightOf(std::uint32_t mesh, const shade::Showing& showing, const Response& response,
+                      const std::vector<std::uint32_t>& receivers, TransferOnGpu& transfer) const;
   Status addProgram(SurfaceKind kind, int lobeBands);
   Status addTexels(std::uint32_t mesh, const transfer::AtTexels& grid, const Response& response,
-                   std::size_t perReceiver, std::optional<float> lobeExponent,
-                   TransferOnGpu& transfer, std::vector<std::pair<RowBand, std::size_t>>& litRows);
+                   std::size_t perReceiver, const shade::Showing& showing, TransferOnGpu& transfer,
+                   std::vector<std::pair<RowBand, std::size_t>>& litRows);
   const scene::Material& materialOf(std::uint32_t mesh) const {
     return asset_->scene.materials[asset_->scene.meshes[mesh].material];
   }
@@ -98,7 +105,7 @@ class GlSurfaces {
   std::vector<Lit> lit_;
   std::vector<Draw> draws_;
   std::map<std::pair<SurfaceKind, int>, Program> programs_;  ///< … and bands of the lobe, or 0
-  bool hasMirrors_ = false;
+  bool hasMirrors_ = false, sharpSun_ = false;
 };
 
 }  // namespace lambent::render

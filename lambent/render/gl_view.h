@@ -2,6 +2,9 @@
 // asset that moves, its own frame.
 #pragma once
 
+#include <optional>
+
+#include "lambent/light/sun.h"
 #include "lambent/math/types.h"
 #include "lambent/scene/camera.h"
 #include "lambent/shade/rtt_footprint.h"
@@ -14,8 +17,9 @@ struct GlView {
   Eigen::Matrix<float, 4, 1, Eigen::DontAlign> eye;
   shade::SampleWidth sampleWidth;
   Mat3 environmentFromWorld = Mat3::Identity();
-  bool unlit = false;     ///< base colours alone
-  bool mirrored = false;  ///< the camera's matrix turns right into left
+  std::optional<light::SunPoint> sun;  ///< whose shadows are sharp, if that is wished
+  bool unlit = false;                  ///< base colours alone
+  bool mirrored = false;               ///< the camera's matrix turns right into left
   /// The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up;
   /// not unit.
   Vec3 corner, right, up;

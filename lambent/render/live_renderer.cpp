@@ -21,8 +21,6 @@
 namespace lambent::render {
 namespace {
 
-constexpr std::size_t kLargestBlock = std::size_t(128) << 20;
-
 shade::PictureOptions pictureOptions(const shade::Showing& showing) {
   shade::PictureOptions result;
   result.showing = showing;
@@ -69,6 +67,7 @@ struct LiveRenderer::Impl {
   GlEnvironment environmentOnGpu;  ///< brought up to date when something shows it
   bool environmentStale = true;
 
+  std::optional<light::Sun> sun;
   bool hasLight = false, stale = false;  ///< stale: M · L is due
   int samples = 0;                       ///< of the picture, the one that is pending included
   bool background = false;               ///< of the last frame
@@ -137,6 +136,15 @@ Status LiveRenderer::setEnvironment(const light::Environment& environment) {
   return Status::ok();
 }
 
+Status LiveRenderer::setSun(const std::optional<shade::SharpSun>& sun) {
+  const GlStateGuard guard;
+  const std::optional<sh::RgbCoefficients> share = sun ? std::optional(sun->share) : std::nullopt;
+  if (Status s = impl_->scene.setSunShare(share); !s) return s;
+  impl_->sun = sun ? std::optional(sun->sun) : std::nullopt;
+  impl_->stale = impl_->hasLight;
+  return Status::ok();
+}
+
 void LiveRenderer::setLight(const sh::RgbCoefficients& assetLight) {
   assert(assetLight.bands >= 1 && assetLight.bands <= sh::kMaxBands);
   impl_->scene.setLight(assetLight);
@@ -174,6 +182,8 @@ Status LiveRenderer::setLightField(const capture::Blending& blending, unsigned l
         fmt::format("a light field's buffer of {} bytes, where {} samples of {} bands take {}",
                     bytes, blending.samples.size(), bands, needed));
   const GlStateGuard guard;
+  if (impl_->sun)
+    if (Status s = setSun(std::nullopt); !s) return s;
   if (Status s = impl_->scene.setLightField(blending, lightBuffer, bands); !s) return s;
   impl_->hasLight = impl_->stale = true;
   return Status::ok();
@@ -229,6 +239,9 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
   seen.environmentFromWorld =
       view.worldFromEnvironment.transpose() * view.worldFromAsset.topLeftCorner<3, 3>();
   seen.unlit = view.unlit;
+  if (impl_->sun)
+    seen.sun = light::pointsOf(*impl_->sun, samples)[std::size_t(impl_->samples % samples)];
+  if (Status s = impl_->scene.mapSun(seen); !s) return s;
   target.beginFrame();
   impl_->scene.draw(seen, impl_->environmentOnGpu);
   impl_->clipFromWorld = seen.clipFromWorld * assetFromWorld;

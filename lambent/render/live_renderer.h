@@ -11,6 +11,7 @@
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
 
@@ -52,6 +53,10 @@ class LiveRenderer {
 
   /// One light for the whole asset, in the asset's own frame: sh::rotate(assetFromWorld, …).
   void setLight(const sh::RgbCoefficients& assetLight);
+  /// The Sun of setLight's light whose shadows are to be sharp (none: all of it is soft), in the
+  /// asset's frame. The first one uploads what it needs; others cost next to nothing: it can move in
+  /// every frame. A map of what it leaves dark is drawn with each. A light field knows none.
+  Status setSun(const std::optional<shade::SharpSun>& sun);
   /// Light that varies over the asset: `samples` sets of coefficients, [sample][coefficient][3]
   /// floats in a GL buffer that the caller (or capture on the GPU) fills, blended at each vertex by
   /// its weights. Sets setLight's light aside; `blending` is uploaded here, once, and the buffer is

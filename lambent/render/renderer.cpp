@@ -16,11 +16,6 @@
 #include "lambent/shade/picture_frame.h"
 
 namespace lambent::render {
-namespace {
-
-constexpr std::size_t kLargestBlock = std::size_t(128) << 20;
-
-}  // namespace
 
 struct Renderer::Impl {
   const light::Environment& environment;
@@ -32,13 +27,19 @@ struct Renderer::Impl {
   GlScene scene;
   GlEnvironment inMirrors;
 
-  /// One frame, seen through `place` of every pixel.
-  GlView draw(const scene::Camera& camera, const Vec2& place) const {
-    const GlView view =
+  /// One frame, seen through `place` of every pixel, under a point of the sharp Sun, if there is one.
+  Result<GlView> draw(const scene::Camera& camera, const Vec2& place, const light::SunPoint* sun) {
+    GlView view =
         viewThrough(camera, options.width, options.height, bounds, place, options.samples);
+    if (sun) view.sun = *sun;
+    if (Status s = scene.mapSun(view); !s) return s.error();
     target.beginFrame();
     scene.draw(view, inMirrors);
     return view;
+  }
+
+  std::vector<light::SunPoint> sunPoints(int count) const {
+    return options.sun ? light::pointsOf(options.sun->sun, count) : std::vector<light::SunPoint>();
   }
 };
 
@@ -71,6 +72,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
   sceneOptions.largestTexture = limits.largestTexture;
   sceneOptions.showing = options.showing;
+  if (options.sun) sceneOptions.sunShare = options.sun->share;
   Result<GlScene> scene = GlScene::makeLit(asset, light, sceneOptions);
   if (!scene) return scene.error();
   GlEnvironment inMirrors;
@@ -86,7 +88,9 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
 
 Status Renderer::drawFrame(const scene::Camera& camera) {
   if (Status s = shade::checkCamera(camera); !s) return s;
-  impl_->draw(camera, Vec2(0.5f, 0.5f));
+  const std::vector<light::SunPoint> sun = impl_->sunPoints(1);
+  const auto drawn = impl_->draw(camera, Vec2(0.5f, 0.5f), sun.empty() ? nullptr : &sun[0]);
+  if (!drawn) return drawn.error();
   glFinish();
   return checkGl("drawing");
 }
@@ -94,9 +98,12 @@ Status Renderer::drawFrame(const scene::Camera& camera) {
 Result<image::Image> Renderer::picture(const scene::Camera& camera, const Progress& progress) {
   if (Status s = shade::checkCamera(camera); !s) return s.error();
   const std::vector<Vec2> places = scene::subpixelPositions(impl_->options.samples);
+  const std::vector<light::SunPoint> sun = impl_->sunPoints(impl_->options.samples);
   impl_->target.clearSum();
   for (std::size_t i = 0; i < places.size(); ++i) {
-    impl_->target.addToSum(impl_->draw(camera, places[i]), nullptr);
+    const auto drawn = impl_->draw(camera, places[i], sun.empty() ? nullptr : &sun[i]);
+    if (!drawn) return drawn.error();
+    impl_->target.addToSum(*drawn, nullptr);
     if (Status s = checkGl("drawing"); !s) return s.error();
     if (progress) {
       glFinish();

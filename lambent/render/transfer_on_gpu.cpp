@@ -96,15 +96,36 @@ std::vector<float> interleaved(const sh::RgbCoefficients& light) {
 
 }  // namespace
 
-void TransferOnGpu::setLight(const sh::RgbCoefficients& light) {
+void TransferOnGpu::LightBuffer::write(const sh::RgbCoefficients& light) {
   const std::vector<float> numbers = interleaved(light);
-  if (!light_.name() || light.bands != lightOnCpu_.bands)
-    light_ = makeChangingBuffer(numbers.size() * sizeof(float));
-  glNamedBufferSubData(light_.name(), 0, GLsizeiptr(numbers.size() * sizeof(float)),
+  if (!buffer.name() || light.bands != bands)
+    buffer = makeChangingBuffer(numbers.size() * sizeof(float));
+  glNamedBufferSubData(buffer.name(), 0, GLsizeiptr(numbers.size() * sizeof(float)),
                        numbers.data());
+  bands = light.bands;
+}
+
+void TransferOnGpu::uploadSun() {
+  const sh::RgbCoefficients none(1);
+  sh::RgbCoefficients rest = lightOnCpu_;
+  if (sunShare_ && rest.bands > 0) {
+    const sh::RgbCoefficients share = sh::withBands(*sunShare_, rest.bands);
+    for (std::size_t i = 0; i < rest.values.size(); ++i) rest.values[i] -= share.values[i];
+  }
+  sun_.write(sunShare_ ? *sunShare_ : none);
+  withoutSun_.write(rest.bands > 0 ? rest : none);
+}
+
+void TransferOnGpu::setLight(const sh::RgbCoefficients& light) {
+  light_.write(light);
   lightOnCpu_ = light;
-  bands_ = light.bands;
   field_ = 0;
+  uploadSun();
+}
+
+void TransferOnGpu::setSunShare(const std::optional<sh::RgbCoefficients>& share) {
+  sunShare_ = share;
+  uploadSun();
 }
 
 Status TransferOnGpu::setField(GLuint lights, int bands) {
@@ -122,7 +143,7 @@ Status TransferOnGpu::setField(GLuint lights, int bands) {
     if (Status s = checkGl("making room for a light field"); !s) return s;
   }
   field_ = lights;
-  bands_ = bands;
+  fieldBands_ = bands;
   return Status::ok();
 }
 
@@ -139,8 +160,9 @@ Status TransferOnGpu::setBlend(Relit& relit, std::span<const capture::BlendWeigh
   return checkGl("uploading how light blends");
 }
 
-Result<const Program*> TransferOnGpu::program(ProductShape::Kind kind, Encoding encoding) {
-  const bool field = field_ != 0;
+Result<const Program*> TransferOnGpu::program(const Relit& relit, Encoding encoding) {
+  const ProductShape::Kind kind = relit.shape.kind;
+  const bool field = takesField(relit);
   const std::tuple key(kind, encoding, field);
   auto found = programs_.find(key);
   if (found == programs_.end()) {
@@ -159,11 +181,16 @@ Result<const Program*> TransferOnGpu::program(ProductShape::Kind kind, Encoding 
 }
 
 Status TransferOnGpu::dispatch(const Relit& relit, const Relit::Chunk& chunk) {
-  const Result<const Program*> found = program(relit.shape.kind, relit.shape.encoding);
+  const Result<const Program*> found = program(relit, relit.shape.encoding);
   if (!found) return found.error();
   const Program& product = **found;
   const ProductShape& shape = relit.shape;
-  const int used = std::min(shape.columns, sh::coefficientCount(bands_));
+  const bool field = takesField(relit);
+  const LightBuffer& light = relit.light == Relit::Light::Whole ? light_
+                             : relit.light == Relit::Light::Sun ? sun_
+                                                                : withoutSun_;
+  const int bands = field ? fieldBands_ : light.bands;
+  const int used = std::min(shape.columns, sh::coefficientCount(bands));
   const int made = filledUp(used);
   product.set("channels", unsigned(shape.channels));
   product.set("rows", unsigned(shape.rows));
@@ -175,15 +202,15 @@ Status TransferOnGpu::dispatch(const Relit& relit, const Relit::Chunk& chunk) {
   product.set("lightStride", unsigned(3 * made));
   // A field is first blended for as many receivers as there is room for.
   const std::size_t most =
-      field_ ? std::clamp<std::size_t>(blendedBytes_ / (3 * sizeof(float) * std::size_t(made)), 1,
-                                       kMostInvocations / std::size_t(made))
-             : chunk.count;
+      field ? std::clamp<std::size_t>(blendedBytes_ / (3 * sizeof(float) * std::size_t(made)), 1,
+                                      kMostInvocations / std::size_t(made))
+            : chunk.count;
   for (std::size_t begin = 0; begin < chunk.count; begin += most) {
     const std::size_t count = std::min(most, chunk.count - begin);
-    if (field_) {
+    if (field) {
       blend_->set("receivers", unsigned(count));
       blend_->set("first", unsigned(chunk.first + begin));
-      blend_->set("coefficients", unsigned(sh::coefficientCount(bands_)));
+      blend_->set("coefficients", unsigned(sh::coefficientCount(bands)));
       blend_->set("used", unsigned(used));
       blend_->set("made", unsigned(made));
       glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, field_);
@@ -198,7 +225,7 @@ Status TransferOnGpu::dispatch(const Relit& relit, const Relit::Chunk& chunk) {
     product.set("receivers", unsigned(count));
     product.set("first", unsigned(chunk.first));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, chunk.numbers.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, field_ ? blended_.name() : light_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, field ? blended_.name() : light.buffer.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, relit.product.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, relit.factors.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, chunk.scales.name());
@@ -221,7 +248,7 @@ Status TransferOnGpu::multiply(Relit& relit, const Numbers& transfer) {
   const Numbers decoded = asFloatsIfScalesDiffer(transfer, columns);
   const Numbers& numbers = decoded.empty() ? transfer : decoded;
   relit.shape.encoding = numbers.encoding;
-  if (const Result<const Program*> made = program(relit.shape.kind, numbers.encoding); !made)
+  if (const Result<const Program*> made = program(relit, numbers.encoding); !made)
     return made.error();
   relit.product =
       makeBuffer(relit.receivers.size() * std::size_t(relit.shape.stride) * sizeof(float));
@@ -252,8 +279,9 @@ Status TransferOnGpu::multiply(Relit& relit, const Numbers& transfer) {
 }
 
 Result<Relit> TransferOnGpu::diffuse(const transfer::Vectors<Numbers>& vectors,
-                                     std::vector<std::uint32_t> receivers) {
+                                     std::vector<std::uint32_t> receivers, Relit::Light light) {
   Relit relit;
+  relit.light = light;
   relit.receivers = std::move(receivers);
   relit.shape.kind = ProductShape::Kind::Vectors;
   relit.shape.channels = vectors.channels;

@@ -39,7 +39,11 @@ struct Relit {
     std::size_t first = 0, count = 0;  ///< receivers
   };
   std::vector<std::uint32_t> receivers;  ///< the mesh's numbers of them
-  Buffer product;                        ///< [receiver][ProductShape::stride] floats
+  /// What its product is with: all of the light, its Sun's share of it, or the rest. (Light fields
+  /// have no Sun.)
+  enum class Light { Whole, Sun, WithoutSun };
+  Light light = Light::Whole;
+  Buffer product;  ///< [receiver][ProductShape::stride] floats
   ProductShape shape;
   Buffer factors;  ///< [rowsUsed], what each row is multiplied with; matrices only
   std::vector<Chunk> chunks;
@@ -61,6 +65,8 @@ class TransferOnGpu {
 
   /// One light for all receivers.
   void setLight(const sh::RgbCoefficients& light);
+  /// What a Sun that is sharp (shade/sharp_sun.h) is of it; none: nothing.
+  void setSunShare(const std::optional<sh::RgbCoefficients>& share);
   /// A light for each of some samples: [sample][coefficient][3] floats in a buffer of the caller's.
   /// Every Relit must have been blended().
   Status setField(GLuint lights, int bands);
@@ -69,7 +75,8 @@ class TransferOnGpu {
 
   /// Exit radiance M · L of the named receivers of a mesh: [receiver][3].
   Result<Relit> diffuse(const transfer::Vectors<transfer::Numbers>& vectors,
-                        std::vector<std::uint32_t> receivers);
+                        std::vector<std::uint32_t> receivers,
+                        Relit::Light light = Relit::Light::Whole);
   /// α_i G_i (M L)_i k: [receiver][rttStride(outBands)], coefficient after coefficient, each R, G,
   /// B, filled up with zeros.
   Result<Relit> lobe(const transfer::Glossy<transfer::Numbers>& glossy,
@@ -92,14 +99,26 @@ class TransferOnGpu {
                const std::vector<std::uint32_t>& receivers, int bands,
                std::span<const float> factors) const;
   Status dispatch(const Relit& relit, const Relit::Chunk& chunk);
-  Result<const Program*> program(ProductShape::Kind kind, transfer::Encoding encoding);
+  /// Whether receivers have lights of their own for it.
+  bool takesField(const Relit& relit) const {
+    return field_ != 0 && relit.light != Relit::Light::Sun;
+  }
+  Result<const Program*> program(const Relit& relit, transfer::Encoding encoding);
+  void uploadSun();
 
   std::size_t largestBlock_;
   Residence residence_;
+  /// Coefficients as numbers.glsl reads them.
+  struct LightBuffer {
+    Buffer buffer;
+    int bands = 0;
+    void write(const sh::RgbCoefficients& light);
+  };
   sh::RgbCoefficients lightOnCpu_;
-  Buffer light_;
+  std::optional<sh::RgbCoefficients> sunShare_;
+  LightBuffer light_, sun_, withoutSun_;
   GLuint field_ = 0;  ///< the caller's buffer, or 0: one light
-  int bands_ = 0;
+  int fieldBands_ = 0;
   Buffer blended_;  ///< the field at the receivers of one dispatch: [receiver][coefficient][3]
   std::size_t blendedBytes_ = 0;
   std::optional<Program> blend_;

@@ -7,6 +7,7 @@
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/shade.h"
 #include "lambent/shade/transfer_matrices.h"
+#include "lambent/shade/unshadowed.h"
 
 namespace lambent::shade {
 
@@ -93,6 +94,21 @@ LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
           lit.lobe[(p * rows + i) * 3 + c] =
               lobe.reflectance[c] * factors[i] * incident[(p * 3 + c) * rows + i];
   }
+  return lit;
+}
+
+LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
+                     const sh::RgbCoefficients& light, const Showing& showing,
+                     const std::optional<SharpSun>& sun) {
+  const transfer::EncodedMesh& encoded = asset.transfer.meshes[mesh];
+  if (!std::holds_alternative<transfer::Surface<transfer::Numbers>>(encoded)) return {};
+  LitMesh lit = lightMesh(*responseUnder(asset, mesh, kindShown(encoded, showing)), light,
+                          showing.lobeExponent);
+  if (!sun || lit.diffuse.empty()) return lit;
+  const auto direct = responseUnder(asset, mesh, kindWithoutBounces(encoded, showing));
+  std::vector<float> share(lit.diffuse.size());
+  DiffuseShader(direct->diffuse->vectors).shade(sun->share, share);
+  for (std::size_t i = 0; i < share.size(); ++i) lit.diffuse[i] -= share[i];
   return lit;
 }
 

@@ -7,8 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "lambent/asset/asset.h"
 #include "lambent/scene/scene.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/shade/sharp_sun.h"
+#include "lambent/shade/showing.h"
 #include "lambent/transfer/field.h"
 
 namespace lambent::shade {
@@ -41,6 +44,11 @@ struct LitMesh {
 
 LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
                   const sh::RgbCoefficients& light, std::optional<float> lobeExponent);
+/// A bare surface as `showing` has it, or black. Under a sharp Sun without what falls from it on the
+/// diffuse surface directly: that is the caller's to add (sharp_sun.h).
+LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
+                     const sh::RgbCoefficients& light, const Showing& showing,
+                     const std::optional<SharpSun>& sun);
 
 /// α_i G_i for every coefficient: the lobe's moments, each band's for all its coefficients.
 std::vector<float> lobeFactors(int bands, float exponent);

@@ -1,6 +1,9 @@
 // A relit picture of an asset: what all makers of such pictures are told.
 #pragma once
 
+#include <optional>
+
+#include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 
 namespace lambent::shade {
@@ -14,6 +17,8 @@ struct PictureOptions {
   int samples = 16;         ///< per pixel, at scene::subpixelPositions
   bool background = false;  ///< the environment behind the object; otherwise black, alpha 0
   Showing showing;          ///< what the asset does not hold is BadUsage
+  /// A Sun in the light, in the asset's frame, whose shadows on diffuse surfaces are to be sharp.
+  std::optional<SharpSun> sun;
 };
 
 }  // namespace lambent::shade

@@ -66,11 +66,11 @@ std::optional<Atmosphere> preset(std::string_view name) {
   }
   if (name == "standard") {
     a.air = media::DensityProfile::usStandard1976();
-    a.height = 8.5e4;
     return withTurbidity(a, 2.5);
   }
   if (name == "reference") {
     // The atmosphere of published tables of sky radiance: no ozone.
+    a.height = 6e4;
     a.aerosols = Atmosphere::Angstrom{0.04, 0.8};
     a.singleScatteringAlbedo = 0.8;
     a.aerosolPhase = media::CornetteShanks{0.7};

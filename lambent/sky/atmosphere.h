@@ -40,15 +40,16 @@ struct Atmosphere {
     double exponent = 0.8;
     bool operator==(const Angstrom&) const = default;
   };
+  /// preetham2003modeling, "Mie scattering".
   struct Junge {
-    double concentration = 6e-17;  ///< the seed's c
-    double exponent = 4;           ///< the seed's v
+    double concentration = 6e-17;  ///< its c, cm^(v−3): 6e-17 clear … 25e-17 overcast
+    double exponent = 4;           ///< its v
     bool operator==(const Junge&) const = default;
   };
 
   std::string name = "clear";
   double planetRadius = 6.36e6;  ///< m
-  double height = 6e4;           ///< of its top above the ground, m
+  double height = 1e5;           ///< of its top above the ground, m
 
   Rayleigh rayleigh = Rayleigh::Penndorf;
   media::DensityProfile air = media::DensityProfile::exponential(8000);
@@ -83,9 +84,14 @@ Atmosphere withTurbidity(Atmosphere atmosphere, double turbidity);
 std::span<const std::string_view> presets();
 std::optional<Atmosphere> preset(std::string_view name);
 
-/// A JSON atmosphere (docs/atmospheres.md). BadInput names the file, the key and its range.
+/// A JSON atmosphere (docs/atmospheres.md). BadInput names the file, the key and its range. `name`
+/// stands in messages for the file.
 Result<Atmosphere> parseAtmosphere(std::string_view json, const std::string& name);
+/// The same from a file of 1 MiB at most.
 Result<Atmosphere> readAtmosphere(const std::filesystem::path& path);
+/// Every key, lengths in m, numbers with as many digits as bring them back: what parseAtmosphere()
+/// makes of it is equal to `atmosphere`, if that is in the ranges. Equal atmospheres give the same
+/// bytes. A number that is not finite becomes null, which parseAtmosphere() refuses.
 std::string toJson(const Atmosphere& atmosphere);
 
 }  // namespace lambent::sky

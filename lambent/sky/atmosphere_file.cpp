@@ -1,9 +1,6 @@
-// An atmosphere as JSON (docs/atmospheres.md): what a file does not say is as the preset has it that
-// it is based on.
-#include <algorithm>
+// JSON → Atmosphere. Every complaint names the key by its path, "aerosols.turbidity", and its range.
+// atmosphere_json.cpp is the way back.
 #include <array>
-#include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,351 +8,294 @@
 #include "lambent/file/atomic_file.h"
 #include "lambent/file/json.h"
 #include "lambent/sky/atmosphere.h"
+#include "lambent/sky/medium.h"
+#include "lambent/sky/member_reader.h"
 
 namespace lambent::sky {
-using nlohmann::json;
-using report::badInput;
-
 namespace {
 
-/// An atmosphere is some kilobytes; what is much larger is some other file.
-constexpr std::uintmax_t kMostAtmosphereBytes = 1 << 20;
-constexpr std::size_t kMostPoints = 10000;
+using Json = nlohmann::json;
 
-/// What went wrong at a key, or nothing.
-using Problem = std::optional<std::string>;
+constexpr const char* kExample =
+    R"({"lambent": "atmosphere", "base": "clear", "aerosols": {"turbidity": 3}, "ozone_dobson": 320})";
 
-std::string shownValue(const json& value) {
-  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > 40) text = text.substr(0, 37) + "...";
-  return text;
-}
+/// An atmosphere with three tables of a thousand entries is some 60 KB.
+constexpr std::uintmax_t kMostFileBytes = 1 << 20;
+constexpr std::size_t kLongestName = 200;
 
-Problem readNumber(const json& value, double low, double high, double& out,
-                   std::string_view unit = "") {
-  const double number = value.is_number() ? value.get<double>() : NAN;
-  if (!(number >= low && number <= high))
-    return fmt::format("is {}, and must be a number from {} to {}{}", shownValue(value), low, high,
-                       unit);
-  out = number;
-  return {};
-}
+constexpr Bounds kRadius = {1e5, 1e9};      // m
+constexpr Bounds kTop = {100, 1e6};         // m
+constexpr Bounds kScaleHeight = {10, 1e6};  // m
+constexpr Bounds kAltitude = {0, 1e6};      // m
+constexpr Bounds kFraction = {0, 1};
+constexpr Bounds kAsymmetry = {-0.99, 0.99};
+constexpr Bounds kWavelength = {100, 10000};  // nm
+constexpr Bounds kIrradiance = {0, 1000};     // W m⁻² nm⁻¹
+constexpr Bounds kTurbidity = {1, 10};
+constexpr double kMostThickness = 20;
+/// Smaller densities than this are 0: what is divided by a column must not overflow.
+constexpr Bounds kDensity = {1e-9, 1000, true};
+constexpr double kLeastColumn = 1e-3;  // m
 
-/// The only member of {"name": value}, or a name alone.
-struct Named {
-  std::string name;
-  json value;
-};
-std::optional<Named> namedOf(const json& value) {
-  if (value.is_string()) return Named{value.get<std::string>(), json()};
-  if (value.is_object() && value.size() == 1)
-    return Named{value.begin().key(), value.begin().value()};
-  return std::nullopt;
-}
-
-/// Members of an object, all of them known and there.
-Problem readMembers(
-    const json& value,
-    std::initializer_list<std::pair<const char*, std::function<Problem(const json&)>>> members) {
-  std::string names;
-  for (const auto& [name, read] : members)
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
-  if (!value.is_object() || value.size() != members.size())
-    return fmt::format("is {}, and must have {}", shownValue(value), names);
-  for (const auto& [name, read] : members) {
-    if (!value.contains(name)) return fmt::format("lacks \"{}\"", name);
-    if (const Problem problem = read(value[name])) return fmt::format("\"{}\" {}", name, *problem);
+void readProfile(MemberReader& reader, const Json& json, const std::string& key,
+                 media::DensityProfile& into) {
+  const Json* value = reader.find(json, key);
+  if (!value) return;
+  if (!value->is_object()) {
+    if (reader.word(*value, key, {"us1976"})) into = media::DensityProfile::usStandard1976();
+    return;
   }
-  return {};
+  const std::string prefix = key + ".";
+  reader.onlyKeys(*value, prefix,
+                  {"scale_height_km", "scale_height_m", "altitude_km", "altitude_m", "density"});
+  const auto scaleHeight = reader.length(*value, prefix, "scale_height");
+  const auto altitude = reader.length(*value, prefix, "altitude");
+  const Json* density = reader.find(*value, "density");
+  if (scaleHeight.has_value() == (altitude && density) || (altitude.has_value() != !!density))
+    return reader.complain(key,
+                           "must be \"us1976\" or hold either a scale height or both altitudes and "
+                           "densities");
+  if (scaleHeight) {
+    double metres = 0;
+    reader.number(*scaleHeight->value, scaleHeight->path, kScaleHeight, metres,
+                  scaleHeight->metres);
+    if (reader.sound()) into = media::DensityProfile::exponential(metres);
+    return;
+  }
+  const auto altitudes = reader.list(*altitude->value, altitude->path, kAltitude, altitude->metres);
+  const auto densities = reader.list(*density, prefix + "density", kDensity);
+  if (altitudes.size() != densities.size())
+    return reader.complain(prefix + "density", fmt::format("has {} entries for {} altitudes",
+                                                           densities.size(), altitudes.size()));
+  std::vector<media::DensityProfile::Point> points;
+  for (std::size_t i = 0; i < altitudes.size(); ++i) {
+    if (i > 0 && altitudes[i] < altitudes[i - 1])
+      return reader.complain(fmt::format("{}[{}]", altitude->path, i),
+                             "is below the one before it; altitudes must rise");
+    if (i > 1 && altitudes[i] == altitudes[i - 2])
+      return reader.complain(fmt::format("{}[{}]", altitude->path, i),
+                             "is the third of its altitude; two make a step");
+    points.push_back({altitudes[i], densities[i]});
+  }
+  if (reader.sound()) into = media::DensityProfile::tabulated(std::move(points));
 }
 
-Problem readProfile(const json& value, media::DensityProfile& out) {
-  const auto named = namedOf(value);
-  if (named && named->name == "us-standard-1976" && named->value.is_null()) {
-    out = media::DensityProfile::usStandard1976();
+/// {"wavelength_nm": […], VALUES: […]}.
+Spectral readSpectrum(MemberReader& reader, const Json& value, const std::string& path,
+                      std::string_view values, Bounds bounds) {
+  reader.onlyKeys(value, path + ".", {"wavelength_nm", values});
+  const Json *nm = reader.find(value, "wavelength_nm"), *given = reader.find(value, values);
+  if (!nm || !given) {
+    reader.complain(path, fmt::format("must hold \"wavelength_nm\" and \"{}\"", values));
     return {};
   }
-  if (named && named->name == "exponential") {
-    double scaleHeight = 0;
-    if (const Problem p = readNumber(named->value, 1, 1e6, scaleHeight, " m")) return p;
-    out = media::DensityProfile::exponential(scaleHeight);
-    return {};
+  Spectral spectrum;
+  const std::string nmPath = path + ".wavelength_nm",
+                    valuesPath = fmt::format("{}.{}", path, values);
+  spectrum.wavelengths = reader.list(*nm, nmPath, kWavelength);
+  spectrum.values = reader.list(*given, valuesPath, bounds);
+  if (spectrum.wavelengths.size() != spectrum.values.size())
+    reader.complain(valuesPath, fmt::format("has {} entries for {} wavelengths",
+                                            spectrum.values.size(), spectrum.wavelengths.size()));
+  for (std::size_t i = 1; i < spectrum.wavelengths.size(); ++i)
+    if (!(spectrum.wavelengths[i] > spectrum.wavelengths[i - 1]))
+      reader.complain(fmt::format("{}[{}]", nmPath, i),
+                      "is not above the one before it; wavelengths must rise");
+  return spectrum;
+}
+
+void readPhase(MemberReader& reader, const Json& value, media::PhaseFunction& into) {
+  const std::string key = "aerosol_phase";
+  if (!value.is_object()) {
+    const auto which = reader.word(value, key, {"isotropic", "rayleigh"});
+    if (which)
+      into = *which == 0 ? media::PhaseFunction(media::Isotropic{})
+                         : media::PhaseFunction(media::RayleighPhase{});
+    return;
   }
-  if (named && named->name == "points" && named->value.is_array()) {
-    std::vector<media::DensityProfile::Point> points;
-    if (named->value.empty() || named->value.size() > kMostPoints)
-      return fmt::format("has {} points, and must have 1 to {}", named->value.size(), kMostPoints);
-    for (const json& each : named->value) {
-      media::DensityProfile::Point point{};
-      if (!each.is_array() || each.size() != 2)
-        return fmt::format("has the point {}, and points are [altitude in m, density]",
-                           shownValue(each));
-      if (const Problem p = readNumber(each[0], 0, 1e6, point.altitude, " m")) return p;
-      if (const Problem p = readNumber(each[1], 0, 1e6, point.density)) return p;
-      if (!points.empty() && point.altitude < points.back().altitude)
-        return fmt::format("has points whose altitude falls from {} to {} m",
-                           points.back().altitude, point.altitude);
-      points.push_back(point);
+  reader.onlyKeys(value, key + ".",
+                  {"henyey_greenstein", "cornette_shanks", "double_henyey_greenstein", "schlick"});
+  if (reader.sound() && value.size() != 1)
+    return reader.complain(key, "must hold one phase function");
+  double asymmetry = 0;
+  if (reader.number(value, key + ".", "henyey_greenstein", kAsymmetry, asymmetry))
+    into = media::HenyeyGreenstein{asymmetry};
+  if (reader.number(value, key + ".", "cornette_shanks", kAsymmetry, asymmetry))
+    into = media::CornetteShanks{asymmetry};
+  if (reader.number(value, key + ".", "schlick", kAsymmetry, asymmetry))
+    into = media::Schlick{asymmetry};
+  if (const Json* lobes = reader.find(value, "double_henyey_greenstein")) {
+    const std::string path = key + ".double_henyey_greenstein";
+    if (!lobes->is_array() || lobes->size() != 3)
+      return reader.complain(path,
+                             fmt::format("is {}, not a list [f, g1, g2]", quotedJson(*lobes)));
+    media::DoubleHenyeyGreenstein phase;
+    reader.number((*lobes)[0], path + "[0]", kFraction, phase.f);
+    reader.number((*lobes)[1], path + "[1]", kAsymmetry, phase.g1);
+    reader.number((*lobes)[2], path + "[2]", kAsymmetry, phase.g2);
+    into = phase;
+  }
+}
+
+/// A turbidity alone makes the aerosols; beside others it is what models by turbidity go by.
+void readAerosols(MemberReader& reader, const Json& value, Atmosphere& into) {
+  const std::string key = "aerosols";
+  if (!value.is_object())
+    return reader.complain(key, fmt::format("is {}, not an object {{…}}", quotedJson(value)));
+  reader.onlyKeys(value, key + ".",
+                  {"turbidity", "optical_thickness_at_1um", "angstrom_exponent", "junge"});
+  if (reader.sound() && value.empty())
+    return reader.complain(key,
+                           "is empty; it says a turbidity, an optical thickness or Junge's law");
+  std::optional<double> turbidity;
+  if (double given = 0; reader.number(value, key + ".", "turbidity", kTurbidity, given))
+    turbidity = given;
+  if (turbidity && value.size() == 1 && reader.sound()) {
+    into = withTurbidity(std::move(into), *turbidity);
+    return;
+  }
+  const Json* junge = reader.find(value, "junge");
+  if (junge && value.size() > (turbidity ? 2u : 1u))
+    return reader.complain(key, "must go by an optical thickness or by Junge's law, not by both");
+  into.turbidity = turbidity;
+  if (!junge) {
+    const auto* base = std::get_if<Atmosphere::Angstrom>(&into.aerosols);
+    Atmosphere::Angstrom law = base ? *base : Atmosphere::Angstrom{};
+    reader.number(value, key + ".", "optical_thickness_at_1um", {0, kMostThickness},
+                  law.thicknessAt1um);
+    reader.number(value, key + ".", "angstrom_exponent", {-2, 4}, law.exponent);
+    into.aerosols = law;
+    return;
+  }
+  if (!junge->is_object())
+    return reader.complain(key + ".junge",
+                           fmt::format("is {}, not an object {{…}}", quotedJson(*junge)));
+  Atmosphere::Junge law;
+  reader.onlyKeys(*junge, key + ".junge.", {"concentration", "exponent"});
+  reader.number(*junge, key + ".junge.", "concentration", {0, 1}, law.concentration);
+  reader.number(*junge, key + ".junge.", "exponent", {2, 6}, law.exponent);
+  into.aerosols = law;
+}
+
+/// What is to be spread over a profile needs one that is not empty.
+void checkColumns(MemberReader& reader, const Atmosphere& a) {
+  if (!reader.sound()) return;
+  constexpr std::array<double, 1> kGreen = {550};
+  const auto* angstrom = std::get_if<Atmosphere::Angstrom>(&a.aerosols);
+  const double column = a.aerosolProfile.column(a.height);
+  if (!(angstrom && angstrom->thicknessAt1um == 0) && !(column >= kLeastColumn))
+    return reader.complain("aerosol_profile",
+                           fmt::format("has next to no density below the top ({} km): the aerosols "
+                                       "have no place",
+                                       a.height / 1000));
+  if (a.ozone > 0 && !(a.ozoneProfile.column(a.height) >= kLeastColumn))
+    return reader.complain("ozone_profile",
+                           fmt::format("has next to no density below the top ({} km): the ozone "
+                                       "has no place",
+                                       a.height / 1000));
+  if (angstrom) return;
+  const double thickness = mediumOf(a, kGreen).extinction[kAerosol][0] * column;
+  if (!(thickness <= kMostThickness))
+    reader.complain("aerosols.junge",
+                    fmt::format("comes to an optical thickness of {:.3g} at 550 nm; it must be {} "
+                                "at most",
+                                thickness, kMostThickness));
+}
+
+Atmosphere readKeys(MemberReader& reader, const Json& json) {
+  reader.onlyKeys(
+      json, "",
+      {"lambent", "name", "comment", "base", "planet_radius_km", "planet_radius_m", "top_km",
+       "top_m", "rayleigh", "air", "aerosols", "single_scattering_albedo", "aerosol_phase",
+       "aerosol_profile", "ozone_dobson", "ozone_profile", "ground_albedo", "solar_irradiance"},
+      {"aerosols.turbidity", "aerosols.optical_thickness_at_1um", "aerosols.angstrom_exponent",
+       "aerosols.junge"});
+  std::string base = "clear";
+  if (const Json* value = reader.find(json, "base")) {
+    if (value->is_string()) base = value->get<std::string>();
+    if (!value->is_string() || !preset(base))
+      reader.complain("base", fmt::format("is {}; {}", quotedJson(*value),
+                                          hint(value->is_string() ? base : "",
+                                               {presets().begin(), presets().end()})));
+  }
+  if (!reader.sound()) return {};
+  Atmosphere a = *preset(base);
+  if (const Json* value = reader.find(json, "name")) {
+    if (!value->is_string() || value->get_ref<const std::string&>().size() > kLongestName)
+      reader.complain("name", fmt::format("is {}, not a text of at most {} bytes",
+                                          quotedJson(*value), kLongestName));
+    else
+      a.name = value->get<std::string>();
+  }
+  reader.length(json, "planet_radius", kRadius, a.planetRadius);
+  reader.length(json, "top", kTop, a.height);
+  if (const Json* value = reader.find(json, "rayleigh"))
+    if (const auto law = reader.word(*value, "rayleigh", {"penndorf", "formula", "seed"}))
+      a.rayleigh = Atmosphere::Rayleigh(*law);
+  readProfile(reader, json, "air", a.air);
+  if (const Json* value = reader.find(json, "aerosols")) readAerosols(reader, *value, a);
+  reader.number(json, "", "single_scattering_albedo", kFraction, a.singleScatteringAlbedo);
+  if (const Json* value = reader.find(json, "aerosol_phase"))
+    readPhase(reader, *value, a.aerosolPhase);
+  readProfile(reader, json, "aerosol_profile", a.aerosolProfile);
+  reader.number(json, "", "ozone_dobson", {0, 2000}, a.ozone);
+  readProfile(reader, json, "ozone_profile", a.ozoneProfile);
+  if (const Json* value = reader.find(json, "ground_albedo")) {
+    if (value->is_object()) {
+      a.groundAlbedo = readSpectrum(reader, *value, "ground_albedo", "value", kFraction);
+    } else {
+      double grey = 0;
+      reader.number(*value, "ground_albedo", kFraction, grey);
+      a.groundAlbedo = Spectral::constant(grey);
     }
-    out = media::DensityProfile::tabulated(std::move(points));
-    return {};
   }
-  return fmt::format(
-      "is {}, and must be {{\"exponential\": METRES}}, \"us-standard-1976\" or {{\"points\": "
-      "[[METRES, DENSITY], …]}}",
-      shownValue(value));
-}
-
-Problem readPhase(const json& value, media::PhaseFunction& out) {
-  constexpr double kMost = 0.99;
-  const auto named = namedOf(value);
-  if (named && named->value.is_null()) {
-    if (named->name == "isotropic") return out = media::Isotropic{}, Problem();
-    if (named->name == "rayleigh") return out = media::RayleighPhase{}, Problem();
+  if (const Json* value = reader.find(json, "solar_irradiance")) {
+    if (value->is_object())
+      a.solarIrradiance =
+          readSpectrum(reader, *value, "solar_irradiance", "value_w_m2_nm", kIrradiance);
+    else if (reader.word(*value, "solar_irradiance", {"astm_g173"}))
+      a.solarIrradiance.reset();
   }
-  double g = 0;
-  const auto one = [&] { return readNumber(named->value, -kMost, kMost, g); };
-  if (named && named->name == "henyey-greenstein") {
-    if (const Problem p = one()) return p;
-    return out = media::HenyeyGreenstein{g}, Problem();
-  }
-  if (named && named->name == "cornette-shanks") {
-    if (const Problem p = one()) return p;
-    return out = media::CornetteShanks{g}, Problem();
-  }
-  if (named && named->name == "schlick") {
-    if (const Problem p = one()) return p;
-    return out = media::Schlick{g}, Problem();
-  }
-  if (named && named->name == "double-henyey-greenstein") {
-    media::DoubleHenyeyGreenstein two;
-    const Problem p =
-        readMembers(named->value,
-                    {{"f", [&](const json& v) { return readNumber(v, 0, 1, two.f); }},
-                     {"g1", [&](const json& v) { return readNumber(v, -kMost, kMost, two.g1); }},
-                     {"g2", [&](const json& v) { return readNumber(v, -kMost, kMost, two.g2); }}});
-    if (!p) out = two;
-    return p;
-  }
-  return fmt::format(
-      "is {}, and must be \"isotropic\", \"rayleigh\", {{\"henyey-greenstein\": G}}, "
-      "{{\"cornette-shanks\": G}}, {{\"schlick\": K}} or {{\"double-henyey-greenstein\": {{\"f\": "
-      "F, "
-      "\"g1\": G, \"g2\": G}}}}",
-      shownValue(value));
-}
-
-Problem readSpectral(const json& value, double high, Spectral& out) {
-  if (value.is_number()) {
-    double grey = 0;
-    if (const Problem p = readNumber(value, 0, high, grey)) return p;
-    out = Spectral::constant(grey);
-    return {};
-  }
-  Spectral spectral;
-  const auto list = [](std::vector<double>& into, double low, double most) {
-    return [&into, low, most](const json& v) -> Problem {
-      if (!v.is_array() || v.empty() || v.size() > kMostPoints)
-        return fmt::format("must be a list of 1 to {} numbers", kMostPoints);
-      for (const json& each : v)
-        if (const Problem p = readNumber(each, low, most, into.emplace_back())) return p;
-      return {};
-    };
-  };
-  if (const Problem p = readMembers(value, {{"wavelengths", list(spectral.wavelengths, 100, 1e5)},
-                                            {"values", list(spectral.values, 0, high)}}))
-    return value.is_object() ? p : fmt::format("{}, or be a number", *p);
-  if (spectral.values.size() != spectral.wavelengths.size())
-    return fmt::format("has {} wavelengths and {} values", spectral.wavelengths.size(),
-                       spectral.values.size());
-  for (std::size_t i = 1; i < spectral.wavelengths.size(); ++i)
-    if (!(spectral.wavelengths[i] > spectral.wavelengths[i - 1]))
-      return fmt::format("has wavelengths that do not rise: {} after {}", spectral.wavelengths[i],
-                         spectral.wavelengths[i - 1]);
-  out = std::move(spectral);
-  return {};
-}
-
-Problem readAerosols(const json& value, Atmosphere& out) {
-  const auto named = namedOf(value);
-  if (named && named->name == "turbidity") {
-    double turbidity = 0;
-    if (const Problem p = readNumber(named->value, 1, 10, turbidity)) return p;
-    out = withTurbidity(std::move(out), turbidity);
-    return {};
-  }
-  if (named && named->name == "angstrom") {
-    Atmosphere::Angstrom law;
-    const Problem p = readMembers(
-        named->value,
-        {{"thickness-at-1um",
-          [&](const json& v) { return readNumber(v, 0, 10, law.thicknessAt1um); }},
-         {"exponent", [&](const json& v) { return readNumber(v, -1, 4, law.exponent); }}});
-    if (p) return p;
-    out.aerosols = law;
-  } else if (named && named->name == "junge") {
-    Atmosphere::Junge law;
-    const Problem p = readMembers(
-        named->value,
-        {{"concentration",
-          [&](const json& v) { return readNumber(v, 0, 1e-14, law.concentration); }},
-         {"exponent", [&](const json& v) { return readNumber(v, 2, 6, law.exponent); }}});
-    if (p) return p;
-    out.aerosols = law;
-  } else {
-    return fmt::format(
-        "is {}, and must be {{\"turbidity\": T}}, {{\"angstrom\": {{\"thickness-at-1um\": B, "
-        "\"exponent\": A}}}} or {{\"junge\": {{\"concentration\": C, \"exponent\": V}}}}",
-        shownValue(value));
-  }
-  out.turbidity.reset();
-  return {};
-}
-
-Problem readRayleigh(const json& value, Atmosphere::Rayleigh& out) {
-  if (value == "penndorf") return out = Atmosphere::Rayleigh::Penndorf, Problem();
-  if (value == "formula") return out = Atmosphere::Rayleigh::Formula, Problem();
-  if (value == "seed") return out = Atmosphere::Rayleigh::Seed, Problem();
-  return fmt::format("is {}, and must be \"penndorf\", \"formula\" or \"seed\"", shownValue(value));
-}
-
-struct FileKey {
-  const char* name;
-  Problem (*read)(const json&, Atmosphere&);
-};
-constexpr FileKey kFileKeys[] = {
-    {"planet-radius",
-     [](const json& v, Atmosphere& a) { return readNumber(v, 1e5, 1e9, a.planetRadius, " m"); }},
-    {"height",
-     [](const json& v, Atmosphere& a) { return readNumber(v, 1e3, 1e6, a.height, " m"); }},
-    {"rayleigh", [](const json& v, Atmosphere& a) { return readRayleigh(v, a.rayleigh); }},
-    {"air", [](const json& v, Atmosphere& a) { return readProfile(v, a.air); }},
-    {"aerosols", readAerosols},
-    {"single-scattering-albedo",
-     [](const json& v, Atmosphere& a) { return readNumber(v, 0, 1, a.singleScatteringAlbedo); }},
-    {"aerosol-phase", [](const json& v, Atmosphere& a) { return readPhase(v, a.aerosolPhase); }},
-    {"aerosol-profile",
-     [](const json& v, Atmosphere& a) { return readProfile(v, a.aerosolProfile); }},
-    {"ozone", [](const json& v, Atmosphere& a) { return readNumber(v, 0, 1000, a.ozone, " DU"); }},
-    {"ozone-profile", [](const json& v, Atmosphere& a) { return readProfile(v, a.ozoneProfile); }},
-    {"ground-albedo",
-     [](const json& v, Atmosphere& a) { return readSpectral(v, 1, a.groundAlbedo); }},
-    {"solar-irradiance",
-     [](const json& v, Atmosphere& a) {
-       return readSpectral(v, 100, a.solarIrradiance.emplace());
-     }},
-};
-
-json toJsonValue(const Spectral& spectral) {
-  if (spectral.values.size() == 1) return spectral.values[0];
-  return {{"wavelengths", spectral.wavelengths}, {"values", spectral.values}};
-}
-
-json toJsonValue(const media::DensityProfile& profile) {
-  const auto& law = profile.law();
-  if (const auto* e = std::get_if<media::DensityProfile::Exponential>(&law))
-    return {{"exponential", e->scaleHeight}};
-  if (std::holds_alternative<media::DensityProfile::UsStandard1976>(law)) return "us-standard-1976";
-  json points = json::array();
-  for (const auto& point : std::get<media::DensityProfile::Tabulated>(law).points)
-    points.push_back(json::array({point.altitude, point.density}));
-  return {{"points", std::move(points)}};
-}
-
-struct PhaseToJson {
-  json operator()(const media::Isotropic&) const { return "isotropic"; }
-  json operator()(const media::RayleighPhase&) const { return "rayleigh"; }
-  json operator()(const media::HenyeyGreenstein& p) const { return {{"henyey-greenstein", p.g}}; }
-  json operator()(const media::CornetteShanks& p) const { return {{"cornette-shanks", p.g}}; }
-  json operator()(const media::Schlick& p) const { return {{"schlick", p.k}}; }
-  json operator()(const media::DoubleHenyeyGreenstein& p) const {
-    return {{"double-henyey-greenstein", {{"f", p.f}, {"g1", p.g1}, {"g2", p.g2}}}};
-  }
-};
-
-json aerosolsToJson(const Atmosphere& a) {
-  if (a.turbidity) return {{"turbidity", *a.turbidity}};
-  if (const auto* law = std::get_if<Atmosphere::Angstrom>(&a.aerosols))
-    return {{"angstrom", {{"thickness-at-1um", law->thicknessAt1um}, {"exponent", law->exponent}}}};
-  const auto& law = std::get<Atmosphere::Junge>(a.aerosols);
-  return {{"junge", {{"concentration", law.concentration}, {"exponent", law.exponent}}}};
+  checkColumns(reader, a);
+  return a;
 }
 
 }  // namespace
 
 Result<Atmosphere> parseAtmosphere(std::string_view text, const std::string& name) {
-  const auto wrong = [&](const std::string& what) {
-    return badInput(fmt::format("{}: {}", name, what));
+  const auto wrong = [&name](const std::string& what) {
+    return report::badInput(fmt::format("{}: {}", name, what));
   };
-  const Result<json> parsed = file::parseJson(text);
-  if (!parsed) return wrong(fmt::format("not JSON ({})", parsed.error().message));
-  const json& root = *parsed;
-  if (!root.is_object() || !root.contains("lambent") || root["lambent"] != "atmosphere")
+  if (text.size() > kMostFileBytes)
+    return wrong(fmt::format("{} bytes are too many for an atmosphere", text.size()));
+  const Result<Json> json = file::parseJson(text);
+  if (!json)
     return wrong(
-        "JSON, but not an atmosphere: \"lambent\": \"atmosphere\" is missing. One looks like "
-        "{\"lambent\": \"atmosphere\", \"base\": \"clear\", \"aerosols\": {\"turbidity\": 3}}");
-  Atmosphere atmosphere = *preset("clear");
-  if (root.contains("base")) {
-    const auto base = root["base"].is_string() ? preset(root["base"].get<std::string>())
-                                               : std::optional<Atmosphere>();
-    std::string names;
-    for (const std::string_view each : presets())
-      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", each);
-    if (!base)
-      return wrong(
-          fmt::format("\"base\" is {}, and must be one of {}", shownValue(root["base"]), names));
-    atmosphere = *base;
-  }
-  atmosphere.name = name;
-  if (root.contains("name")) {
-    if (!root["name"].is_string()) return wrong("\"name\" must be a text");
-    atmosphere.name = root["name"].get<std::string>();
-  }
-  for (const auto& [key, value] : root.items()) {
-    if (key == "lambent" || key == "base" || key == "name") continue;
-    const auto known = std::find_if(std::begin(kFileKeys), std::end(kFileKeys),
-                                    [&k = key](const FileKey& each) { return k == each.name; });
-    if (known == std::end(kFileKeys)) {
-      std::string names;
-      for (const FileKey& each : kFileKeys) names += fmt::format(", {}", each.name);
-      return wrong(
-          fmt::format("there is no key \"{:.40}\"; the keys are name, base{}", key, names));
-    }
-    if (const Problem problem = known->read(value, atmosphere))
-      return wrong(fmt::format("\"{}\" {}", key, *problem));
-  }
+        fmt::format("not JSON ({}). An atmosphere looks like {}", json.error().message, kExample));
+  const auto kind = json->is_object() ? json->find("lambent") : json->end();
+  if (!json->is_object() || kind == json->end() || *kind != "atmosphere")
+    return wrong(
+        fmt::format("JSON, but not an atmosphere: \"lambent\": \"atmosphere\" is missing. "
+                    "An atmosphere looks like {}",
+                    kExample));
+  if (const auto key = file::repeatedKey(text))
+    return wrong(fmt::format("{} stands twice in one object", quotedJson(*key)));
+  MemberReader reader(name, "an atmosphere");
+  Atmosphere atmosphere = readKeys(reader, *json);
+  if (!reader.sound()) return reader.error();
   return atmosphere;
 }
 
 Result<Atmosphere> readAtmosphere(const std::filesystem::path& path) {
-  std::error_code sizeError;
-  const std::uintmax_t size = std::filesystem::file_size(path, sizeError);
-  if (!sizeError && size > kMostAtmosphereBytes)
-    return badInput(fmt::format("{}: {} bytes are too many for an atmosphere, which is at most {}",
-                                path.string(), size, kMostAtmosphereBytes));
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (!ignored && size > kMostFileBytes)
+    return report::badInput(
+        fmt::format("{}: {} bytes are too many for an atmosphere", path.string(), size));
   const Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
   return parseAtmosphere({reinterpret_cast<const char*>(bytes->data()), bytes->size()},
                          path.string());
-}
-
-std::string toJson(const Atmosphere& a) {
-  constexpr std::array<const char*, 3> kRayleigh = {"penndorf", "formula", "seed"};
-  json root = {{"lambent", "atmosphere"},
-               {"name", a.name},
-               {"planet-radius", a.planetRadius},
-               {"height", a.height},
-               {"rayleigh", kRayleigh[std::size_t(a.rayleigh)]},
-               {"air", toJsonValue(a.air)},
-               {"aerosols", aerosolsToJson(a)},
-               {"single-scattering-albedo", a.singleScatteringAlbedo},
-               {"aerosol-phase", std::visit(PhaseToJson(), a.aerosolPhase)},
-               {"aerosol-profile", toJsonValue(a.aerosolProfile)},
-               {"ozone", a.ozone},
-               {"ozone-profile", toJsonValue(a.ozoneProfile)},
-               {"ground-albedo", toJsonValue(a.groundAlbedo)}};
-  if (a.solarIrradiance) root["solar-irradiance"] = toJsonValue(*a.solarIrradiance);
-  return root.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace lambent::sky

@@ -21,7 +21,7 @@ struct SkyOptions {
   Model model = Model::Fast;
   int cieType = 12;  ///< of CieGeneral, 1 … 15 (ISO 15469:2004)
   /// What the air is made of, for Exact and Fast; the others take its turbidity, if it says one.
-  Atmosphere atmosphere;
+  Atmosphere atmosphere = *preset("clear");
   double sunElevation = 0;  ///< of the disc's centre as it is seen, rad, −18° … 90°
   double sunDistance = 1;   ///< astronomical units
   double altitude = 0;      ///< of the viewer above the ground, m

@@ -1,7 +1,8 @@
 // This work is based on:
 // - penndorf1957tables; preetham2003modeling, "Rayleigh scattering" (its depolarisation, .0035, is
 //   ten times too small; its coefficients in the text are not what its formula gives) and "Mie
-//   scattering" (Junge's law); angstrom1929atmospheric.
+//   scattering" (Junge's law, whose lengths we take for centimetres: in metres its concentrations
+//   would make a clear sky of thickness 9); angstrom1929atmospheric.
 #include "lambent/sky/medium.h"
 
 #include <algorithm>
@@ -45,9 +46,10 @@ struct AerosolExtinction {
     return law.thicknessAt1um * std::pow(nm / 1000, -law.exponent) / column;
   }
   double operator()(const Atmosphere::Junge& law) const {
-    // .434 c π (2π/λ)^(v−2) K, K from .656 at 400 nm to .69 at 770 nm.
+    // .434 c π (2π/λ)^(v−2) K, in 1/cm with λ in cm; K from .656 at 400 nm to .69 at 770 nm.
     const double k = 0.656 + (0.69 - 0.656) * std::clamp((nm - 400) / 370, 0.0, 1.0);
-    return 0.434 * law.concentration * kPi * std::pow(2 * kPi / (nm * 1e-9), law.exponent - 2) * k;
+    return 100 * 0.434 * law.concentration * kPi *
+           std::pow(2 * kPi / (nm * 1e-7), law.exponent - 2) * k;
   }
 };
 

@@ -13,7 +13,8 @@ namespace {
 /// Farther from the day than this the tables hold nothing that is looked up.
 constexpr double kLastZenith = 122 * kPi / 180;
 
-/// Where a ray enters and leaves the planet's shadow, a cylinder.
+}  // namespace
+
 std::vector<double> shadowEdges(const media::Shell& shell, const RayInAir& ray) {
   const double r = shell.radius + ray.altitude, sun = std::cos(ray.sunZenith);
   const double a = 1 - ray.towardsSun * ray.towardsSun;
@@ -26,8 +27,6 @@ std::vector<double> shadowEdges(const media::Shell& shell, const RayInAir& ray) 
       if (r * sun + s * ray.towardsSun < 0) edges.push_back(s);
   return edges;
 }
-
-}  // namespace
 
 Resolution Resolution::exact(int refine) {
   const double finer = std::pow(1.5, refine);

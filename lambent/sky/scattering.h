@@ -62,6 +62,14 @@ struct GroundLight {
   std::vector<double> diffuse, direct;
 };
 
+/// Light scattered towards a viewer from stretches of one ray that all begin at the viewer, for the
+/// Sun's irradiance above the air of 1. Each array is [stretch][wavelength].
+struct AirStretches {
+  std::vector<double> air, aerosol;  ///< scattered once, without the phase functions
+  std::vector<double> multiple;      ///< scattered more often
+  std::vector<double> depth;         ///< optical thickness
+};
+
 class Scattering {
  public:
   /// Solves it for a medium.
@@ -72,6 +80,10 @@ class Scattering {
   /// Along a ray to the ground, the top of the air, or `end` (m).
   AirLight along(const RayInAir& ray, double end) const;
   AirLight along(const RayInAir& ray) const { return along(ray, kEndless); }
+  /// Along a ray up to each of the rising distances `ends` (m), with `nodes` of quadrature between
+  /// two of them (1 … 8). No ground is in it: below the ground the air goes on as it is on it, so
+  /// that nothing steps where a ray meets it.
+  void upTo(const RayInAir& ray, std::span<const double> ends, int nodes, AirStretches& out) const;
   /// Sum of an AirLight with the phase functions in.
   std::vector<double> radiance(const RayInAir& ray) const;
   GroundLight onGround(double sunZenith) const;

@@ -10,6 +10,9 @@ namespace lambent::sky {
 /// The kernels of this machine.
 MarchKernels marchKernels();
 
+/// Distances, m, where a ray enters and leaves the planet's shadow, a cylinder.
+std::vector<double> shadowEdges(const media::Shell& shell, const RayInAir& ray);
+
 /// The nodes of the tables: *cells*, pairs of the Sun's zenith angle and an altitude, with
 /// directions in each.
 struct Grid {

@@ -1,10 +1,5 @@
-// This work is based on:
-// - neckel2005analytical: the Sun's limb darkening at 422 … 1100 nm, a polynomial in μ whose
-//   coefficients are polynomials in 1/λ.
-//
-// Deviation: one coefficient u a channel, of the law 1 − u (1 − μ), with the paper's mean over the
-// disc. It is within .01 of the centre's radiance over 90% of the radius, and .15 of it too bright at
-// the very limb.
+// A light has one coefficient u of limb darkening a channel, of the law 1 − u (1 − μ), where pictures
+// of the sky have a power of μ for every wavelength: its mean over the disc is the same.
 #include "lambent/sky/sky_light.h"
 
 #include <array>
@@ -14,15 +9,13 @@
 #include "lambent/math/quadrature.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/rotation.h"
+#include "lambent/sky/sight.h"
+#include "lambent/sky/sun_coverage.h"
 
 namespace lambent::sky {
 namespace {
 
 constexpr int kElevations = 64, kAzimuths = 64;
-
-Rgb rgbOf(const radiometry::Xyzv& xyzv) {
-  return radiometry::linearRgbOf(xyzv).max(0).cast<float>();
-}
 
 /// A dome above the horizon.
 class DomeLight final : public light::Skylight {
@@ -38,7 +31,9 @@ class DomeLight final : public light::Skylight {
     }
   }
   double horizon() const override { return horizon_; }
-  Rgb radiance(const Vec3d& direction) const override { return rgbOf(dome_->color(direction)); }
+  Rgb radiance(const Vec3d& direction) const override {
+    return radianceRgb(dome_->color(direction));
+  }
   void addProjection(int bands, std::span<double> out) const override {
     const std::size_t count = std::size_t(sh::coefficientCount(bands));
     const std::size_t all = coefficients_.size() / 3;
@@ -52,23 +47,17 @@ class DomeLight final : public light::Skylight {
   std::vector<double> coefficients_;  ///< R, G and B one after the other
 };
 
-/// 3 (1 − mean over the disc / centre), by which 1 − u (1 − μ) has the same mean.
-double limbDarkeningAt(double micrometres) {
-  const double a = 1 / micrometres, b = std::pow(a, 5);
-  const std::array<double, 6> polynomial = {
-      0.75267 - 0.265577 * a,  0.93874 + 0.265577 * a - 0.004095 * b,
-      -1.89287 + 0.012582 * b, 2.42234 - 0.017117 * b,
-      -1.71150 + 0.011977 * b, 0.49062 - 0.003347 * b};
-  double mean = 0;  // ∫ 2 μ f(μ) dμ
-  for (std::size_t k = 0; k < polynomial.size(); ++k) mean += 2 * polynomial[k] / double(k + 2);
-  return 3 * (1 - mean);
+/// The u of 1 − u (1 − μ) whose mean over the disc is that of μ^α: 1 − u/3 = 2/(α + 2).
+double linearLimbDarkening(double nanometres) {
+  const double exponent = limbDarkening(nanometres);
+  return 3 * exponent / (exponent + 2);
 }
 
 }  // namespace
 
 Rgb solarLimbDarkening() {
-  return Rgb(float(limbDarkeningAt(0.610)), float(limbDarkeningAt(0.550)),
-             float(limbDarkeningAt(0.465)));
+  return Rgb(float(linearLimbDarkening(610)), float(linearLimbDarkening(550)),
+             float(linearLimbDarkening(465)));
 }
 
 std::vector<double> projectDome(const Dome& dome, double horizon, int bands) {
@@ -121,12 +110,12 @@ light::Environment environmentOf(const Sky& sky, const Mat3d& worldFromSun) {
   light::Environment sum =
       light::Environment::skylight(std::make_shared<DomeLight>(sky.dome, sky.horizon),
                                    worldFromSun.cast<float>()) +
-      light::Environment::ground(up, sky.horizon, rgbOf(sky.ground));
+      light::Environment::ground(up, sky.horizon, radianceRgb(sky.ground));
   if (!(sky.sun.visible > 0) || !(sky.sun.angularRadius > 0)) return sum;
   const Vec3d sun(std::cos(sky.sun.elevation), std::sin(sky.sun.elevation), 0);
   return sum + light::Environment::disc({.direction = (worldFromSun * sun).cast<float>(),
                                          .angularDiameter = 2 * sky.sun.angularRadius,
-                                         .irradiance = rgbOf(sky.sun.irradiance),
+                                         .irradiance = radianceRgb(sky.sun.irradiance),
                                          .darkening = solarLimbDarkening(),
                                          .up = up,
                                          .horizon = sky.horizon});

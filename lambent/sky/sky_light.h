@@ -9,12 +9,11 @@ namespace lambent::sky {
 
 /// The dome above the horizon, the Sun's disc with its limb darkening as far as it stands above the
 /// horizon, and the ground below it, of one radiance. W m⁻² sr⁻¹ of luminous equivalent per channel
-/// (radiometry::linearRgbOf): 1 of each is 683.002 cd m⁻². Channels that a colour outside of the
-/// gamut makes negative are 0. worldFromSun turns the Sun's frame (dome.h) about +y.
+/// (radianceRgb): 1 of each is 683.002 cd m⁻². worldFromSun turns the Sun's frame (dome.h) about +y.
 light::Environment environmentOf(const Sky& sky, const Mat3d& worldFromSun);
 
 /// u of the Sun's disc, whose radiance is that of its centre times 1 − u (1 − μ), for light of
-/// 610, 550 and 465 nm: of the mean over the disc that neckel2005analytical has for its centre.
+/// 610, 550 and 465 nm: with the mean over the disc that limbDarkening() has.
 Rgb solarLimbDarkening();
 
 /// ∫ color y_i ds of a dome above a horizon (elevation, rad), X, Y and Z one after the other, each of

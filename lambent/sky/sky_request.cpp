@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "lambent/astronomy/place.h"
 #include "lambent/astronomy/refraction.h"
 #include "lambent/astronomy/sun.h"
+#include "lambent/sky/member_reader.h"
 
 namespace lambent::sky {
 using report::badUsage;
@@ -182,29 +182,13 @@ constexpr RequestKey kKeys[] = {
      setRefine},
 };
 
-/// How many letters must change to make one of the other (levenshtein's distance).
-std::size_t lettersApart(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 Error unknownKey(std::string_view key) {
   std::string all;
   const RequestKey* nearest = nullptr;
   std::size_t least = 4;
   for (const RequestKey& each : kKeys) {
     all += fmt::format("{}{}", all.empty() ? "" : ", ", each.key);
-    std::size_t apart = lettersApart(key, each.key);
+    std::size_t apart = editDistance(key, each.key);
     if (key.size() > 2 && (key.starts_with(each.key) || each.key.starts_with(key))) apart = 1;
     if (apart < least && apart < std::max<std::size_t>(each.key.size(), 2)) {
       least = apart;
@@ -227,6 +211,7 @@ std::string listed(const std::vector<std::string_view>& words) {
 struct SunPlace {
   double elevation, bearing;  ///< as it is seen, rad
   double distance;            ///< AU
+  std::optional<double> trueElevation;
 };
 
 Result<SunPlace> sunByMoment(const SkyRequest& request) {
@@ -246,7 +231,8 @@ Result<SunPlace> sunByMoment(const SkyRequest& request) {
   const astronomy::Topocentric sun = astronomy::apparentSun(*moment, *place);
   const astronomy::Horizontal seen =
       astronomy::refracted(sun.direction, astronomy::standardAir(request.altitude));
-  return SunPlace{seen.elevation, seen.azimuth, sun.distance / astronomy::kAstronomicalUnit};
+  return SunPlace{seen.elevation, seen.azimuth, sun.distance / astronomy::kAstronomicalUnit,
+                  sun.direction.elevation};
 }
 
 Result<SunPlace> sunOf(const SkyRequest& request) {
@@ -260,7 +246,8 @@ Result<SunPlace> sunOf(const SkyRequest& request) {
     return badUsage(fmt::format(
         "where the Sun stands is missing: give {}date, time, lat and lon",
         request.sunAzimuth ? "sun-elevation with sun-azimuth, or " : "sun-elevation, or "));
-  return SunPlace{*request.sunElevation * kRadians, request.sunAzimuth.value_or(180) * kRadians, 1};
+  return SunPlace{*request.sunElevation * kRadians, request.sunAzimuth.value_or(180) * kRadians, 1,
+                  std::nullopt};
 }
 
 Result<Atmosphere> atmosphereOf(const SkyRequest& request) {
@@ -385,6 +372,7 @@ Result<WithFindings<ResolvedSky>> resolve(const SkyRequest& request) {
   resolved.options.diffuseHorizontalIrradiance = request.diffuseHorizontal;
   resolved.options.refine = request.refine;
   resolved.sunBearing = sun->bearing;
+  resolved.trueElevation = sun->trueElevation;
   resolved.worldFromSun = worldFromSunAt(sun->bearing);
   if (request.altitude > 0 && !isSimulated(request.model))
     made.findings.push_back({Severity::Warning, "sky-altitude-unused",

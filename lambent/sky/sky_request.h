@@ -54,6 +54,8 @@ std::size_t endOfRequestValue(std::string_view text, std::size_t at);
 struct ResolvedSky {
   SkyOptions options;
   double sunBearing = 0;  ///< compass bearing of the Sun, rad
+  /// Of the Sun without refraction, rad; nothing where a person said how high it is seen.
+  std::optional<double> trueElevation;
   /// Turns the Sun's frame of a Dome to the world: +x of the frame to the Sun's azimuth.
   Mat3d worldFromSun = Mat3d::Identity();
 };

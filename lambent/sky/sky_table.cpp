@@ -344,7 +344,9 @@ SkyTable::Light SkyTable::light(double sunElevation, double nearness,
 }
 
 std::string tableKey(const Atmosphere& atmosphere, double altitude) {
-  return fmt::format("lambent sky table 1\n{}\naltitude {:a}\n", toJson(atmosphere), altitude);
+  Atmosphere nameless = atmosphere;
+  nameless.name.clear();
+  return fmt::format("lambent sky table 1\n{}\naltitude {:a}\n", toJson(nameless), altitude);
 }
 
 std::vector<std::byte> SkyTable::bytes() const {

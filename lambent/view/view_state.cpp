@@ -55,9 +55,10 @@ bool operator==(const ViewState& a, const ViewState& b) {
   return a.camera == b.camera && a.objectRotation == b.objectRotation &&
          a.objectTranslation == b.objectTranslation && a.environment == b.environment &&
          a.environmentRotation == b.environmentRotation && a.discs == b.discs &&
-         a.window == b.window && a.transfer == b.transfer && a.macro == b.macro &&
-         a.viewDependent == b.viewDependent && a.lobe == b.lobe && a.exposure == b.exposure &&
-         a.tone == b.tone && a.background == b.background && a.samples == b.samples;
+         a.window == b.window && a.transfer == b.transfer && a.sunShadow == b.sunShadow &&
+         a.macro == b.macro && a.viewDependent == b.viewDependent && a.lobe == b.lobe &&
+         a.exposure == b.exposure && a.tone == b.tone && a.background == b.background &&
+         a.samples == b.samples;
 }
 
 std::string toJson(const ViewState& state) {
@@ -79,6 +80,7 @@ std::string toJson(const ViewState& state) {
   add("discs", "[" + discs + (discs.empty() ? "]" : "\n  ]"));
   add("window", quoted(state.window));
   add("transfer", quoted(std::string(shade::choiceName(state.transfer))));
+  add("sunShadow", state.sunShadow == shade::SunShadow::Sharp ? "\"sharp\"" : "\"soft\"");
   add("macro", flag(state.macro));
   add("viewDependent", flag(state.viewDependent));
   add("lobe", numberOrNull(state.lobe));

@@ -12,6 +12,7 @@
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
+#include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
 
@@ -45,6 +46,8 @@ struct ViewState {
   std::vector<Disc> discs;
   std::string window = "none";             ///< as light::parseWindowing takes it
   std::optional<transfer::Kind> transfer;  ///< none: the most that is held
+  /// Of the light's Sun, if it has one (light::sunOf): on diffuse surfaces.
+  shade::SunShadow sunShadow = shade::SunShadow::Sharp;
   bool macro = true;           ///< off: meso-structure takes the light as nothing hid it
   bool viewDependent = true;   ///< of meso-structure
   std::optional<double> lobe;  ///< exponent of glossy lobes instead of the materials'
@@ -66,7 +69,7 @@ bool operator==(const ViewState& a, const ViewState& b);
 ///  "environment": {"source": "studio.exr", "rotation": [x,y,z,w]},
 ///  "discs": [{"azimuth": 30, "elevation": 45, "diameter": 20, "radiance": [r,g,b]}],
 ///  "window": "none", "transfer": "best" | "unshadowed" | "shadowed" | "interreflected",
-///  "macro": true, "viewDependent": true, "lobe": null | 16, "exposure": 0,
+///  "sunShadow": "sharp" | "soft", "macro": true, "viewDependent": true, "lobe": null | 16, "exposure": 0,
 ///  "tone": "filmic" | "linear", "background": true, "samples": 16}
 /// A member that is missing has its default; one that is unknown is passed over; one of the wrong
 /// kind or out of range is BadInput that names it. Rotations are made unit. `name` stands in

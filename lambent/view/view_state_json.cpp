@@ -210,6 +210,12 @@ Result<ViewState> parseViewState(std::string_view text, const std::string& name)
                     fmt::format("is \"{}\"; it must be \"best\", \"unshadowed\", \"shadowed\" or "
                                 "\"interreflected\"",
                                 transfer));
+  std::string sunShadow = "sharp";
+  reader.text(json, "sunShadow", "sunShadow", sunShadow);
+  if (sunShadow == "soft") state.sunShadow = shade::SunShadow::Soft;
+  if (sunShadow != "sharp" && sunShadow != "soft")
+    reader.complain("sunShadow",
+                    fmt::format("is \"{}\"; it must be \"sharp\" or \"soft\"", sunShadow));
   reader.flag(json, "macro", state.macro);
   reader.flag(json, "viewDependent", state.viewDependent);
   reader.optional(json, "lobe", "lobe", 0.0, 1e5, state.lobe);

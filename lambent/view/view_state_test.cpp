@@ -19,6 +19,7 @@ ViewState everything() {
   state.discs = {{30, 45, 0.53, Rgb(2e4f, 1.9e4f, 0.1f)}, {-170, -90, 360, Rgb::Zero()}};
   state.window = "lanczos:6.5";
   state.transfer = transfer::Kind::Shadowed;
+  state.sunShadow = shade::SunShadow::Soft;
   state.macro = state.viewDependent = state.background = false;
   state.lobe = 12.5;
   state.exposure = -1.75;
@@ -52,6 +53,7 @@ TEST(ViewState, IsComparedMemberByMember) {
   EXPECT_TRUE(differs([](ViewState& s) { s.discs[1].radiance[2] = 1; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.window = "minimal"; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.transfer.reset(); }));
+  EXPECT_TRUE(differs([](ViewState& s) { s.sunShadow = shade::SunShadow::Sharp; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.macro = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.viewDependent = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.lobe.reset(); }));
@@ -115,6 +117,7 @@ TEST(ViewState, NamesTheMemberThatIsWrong) {
       {"discs[0].radiance[1]", R"("discs": [{"radiance": [0, -1, 0]}])"},
       {"window", R"("window": "hann:-2")"},
       {"transfer", R"("transfer": "glossy")"},
+      {"sunShadow", R"("sunShadow": "hard")"},
       {"macro", R"("macro": 1)"},
       {"viewDependent", R"("viewDependent": "on")"},
       {"lobe", R"("lobe": -1)"},

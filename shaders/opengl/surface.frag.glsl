@@ -4,7 +4,7 @@
 // 3 black; LAMBENT_GROUPS, LAMBENT_INTERPOLATED and LAMBENT_EACH_GROUP as in surface.vert.glsl and,
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, base_color_map.glsl, shading_normal.glsl, texel_receivers.glsl,
-// corner_weights.glsl; for mirrors environment.glsl, environment_maps.glsl.
+// corner_weights.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl, environment_maps.glsl.
 
 struct Vertex {
   vec4 positionU;
@@ -18,12 +18,20 @@ layout(std430, binding = 2) readonly buffer Diffuse { float diffuse[]; };  // [r
 layout(std430, binding = 3) readonly buffer Lobe { vec4 lobe[]; };  // [receiver][LAMBENT_GROUPS]
 layout(std430, binding = 5) readonly buffer Normals { vec4 normals[]; };  // of triangles, not unit
 
+layout(std430, binding = 6) readonly buffer SunShare { float sunShare[]; };  // [receiver][3]
+layout(binding = 4) uniform sampler2D sunMap;
+
 uniform vec4 eye;  // position, 1; or, for an orthographic camera, unit direction to the viewer, 0
 uniform bool hasDiffuse, albedoOutside;
 uniform vec3 mirror;
 uniform ivec2 grid;  // texels: the whole grid's size
 uniform ivec2 rows;  // texels: this draw shades what falls on rows.x … rows.y − 1; receiver 0 is
                      // the first texel of row rows.x
+
+uniform bool hasSunShare;           // to be taken out of the diffuse radiance
+uniform bool sunlit, sunCanHide;    // by a Sun that is not in the diffuse radiance
+uniform vec3 sentFromSun;           // reflectance / pi times irradiance of what faces the Sun
+uniform vec3 sunDirection;
 
 in vec3 position;
 in vec4 normalU;
@@ -42,6 +50,18 @@ vec3 reflectedView() {
   return reflectAbout(eye.w > 0.0 ? normalize(eye.xyz - position) : eye.xyz, normal);
 }
 
+#if LAMBENT_KIND < 2
+float sunMapDepth(ivec2 texel) { return texelFetch(sunMap, texel, 0).r; }
+
+vec3 sunRadiance() {
+  if (!sunlit) return vec3(0.0);
+  vec3 front = normalize(normals[gl_PrimitiveID].xyz);
+  float cosine = dot(shadingNormal(normalU.xyz, front), sunDirection);
+  if (cosine <= 0.0) return vec3(0.0);
+  return base() * sentFromSun * cosine * (sunCanHide ? sunSeen(position, front) : 1.0);
+}
+#endif
+
 #if LAMBENT_GROUPS > 0 && !LAMBENT_INTERPOLATED
 int lightPlace(int receiver) { return receiver * LAMBENT_GROUPS; }
 vec4 lightGroup(int first, int group) { return lobe[first + group]; }
@@ -50,7 +70,7 @@ vec4 lightGroup(int first, int group) { return lobe[first + group]; }
 #if LAMBENT_KIND == 0
 
 vec3 litRadiance() {
-  vec3 sum = albedoOutside ? base() * exitRadiance : exitRadiance;
+  vec3 sum = (albedoOutside ? base() * exitRadiance : exitRadiance) + sunRadiance();
 #if LAMBENT_GROUPS > 0
 #if !LAMBENT_INTERPOLATED
   ivec3 corner = ivec3(corners[3 * gl_PrimitiveID], corners[3 * gl_PrimitiveID + 1],
@@ -82,9 +102,12 @@ vec3 litRadiance() {
   if (hasDiffuse) {
     for (int k = 0; k < 4; ++k) {
       int at = 3 * texels.receiver[k];
-      sum += texels.weight[k] * vec3(diffuse[at], diffuse[at + 1], diffuse[at + 2]);
+      vec3 texel = vec3(diffuse[at], diffuse[at + 1], diffuse[at + 2]);
+      if (hasSunShare) texel -= vec3(sunShare[at], sunShare[at + 1], sunShare[at + 2]);
+      sum += texels.weight[k] * texel;
     }
     if (albedoOutside) sum *= base();
+    sum += sunRadiance();
   }
 #if LAMBENT_GROUPS > 0
   interpolateIncident(texels.receiver, texels.weight);

@@ -15,8 +15,10 @@ layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(std430, binding = 2) readonly buffer Diffuse { float diffuse[]; };  // [receiver][3]
 layout(std430, binding = 3) readonly buffer Lobe { vec4 lobe[]; };  // [receiver][LAMBENT_GROUPS]
 
+layout(std430, binding = 6) readonly buffer SunShare { float sunShare[]; };  // [receiver][3]
+
 uniform mat4 clipFromWorld;
-uniform bool hasDiffuse;
+uniform bool hasDiffuse, hasSunShare;  // the share is to be taken out
 
 out vec3 position;
 out vec4 normalU;
@@ -36,6 +38,7 @@ void main() {
 #if LAMBENT_KIND == 0
   int at = 3 * gl_VertexID;
   exitRadiance = hasDiffuse ? vec3(diffuse[at], diffuse[at + 1], diffuse[at + 2]) : vec3(0.0);
+  if (hasSunShare) exitRadiance -= vec3(sunShare[at], sunShare[at + 1], sunShare[at + 2]);
 #if LAMBENT_INTERPOLATED
 #define COPY(i) incident[i] = lobe[gl_VertexID * LAMBENT_GROUPS + i];
   LAMBENT_EACH_GROUP(COPY)

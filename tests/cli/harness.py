@@ -14,6 +14,8 @@ from pathlib import Path
 TOOL = os.environ["LAMBENT_UNDER_TEST"]
 WORK = os.environ["LAMBENT_TEST_WORK"]
 INPUTS = Path(os.environ["LAMBENT_INPUTS"])
+# Tables of skies are kept here and not with the person's own.
+os.environ["XDG_CACHE_HOME"] = str(Path(WORK) / "cache")
 
 DONE, FAILED, USAGE, BAD_INPUT = 0, 1, 2, 3
 
@@ -181,3 +183,65 @@ def read_csv(path: Path):
 def hdr(width: int, height: int, rgbe=(128, 128, 128, 129)) -> bytes:
     head = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode()
     return head + bytes(rgbe) * (width * height)
+
+
+class Exr:
+    """An OpenEXR file of one part with 32-bit floats in ZIP blocks, as the tool writes them."""
+
+    def __init__(self, path: Path):
+        data = path.read_bytes()
+        assert data[:4] == b"\x76\x2f\x31\x01", path
+        at = 8
+        self.attributes, self.names = {}, []
+
+        def text():
+            nonlocal at
+            end = data.index(b"\0", at)
+            word, at = data[at:end].decode(), end + 1
+            return word
+
+        while name := text():
+            kind = text()
+            size, = struct.unpack_from("<I", data, at)
+            value = data[at + 4:at + 4 + size]
+            at += 4 + size
+            if kind == "string":
+                self.attributes[name] = value.decode()
+            elif kind == "chlist":
+                while value[0]:
+                    end = value.index(b"\0")
+                    self.names.append(value[:end].decode())
+                    assert value[end + 1] == 2, "not a float"
+                    value = value[end + 17:]
+            elif name == "dataWindow":
+                x0, y0, x1, y1 = struct.unpack("<4i", value)
+                self.width, self.height = x1 - x0 + 1, y1 - y0 + 1
+            elif name == "compression":
+                assert value == b"\3", "not ZIP"
+        blocks = (self.height + 15) // 16
+        self.rows = {name: [] for name in self.names}
+        for place in struct.unpack_from(f"<{blocks}Q", data, at):
+            y, size = struct.unpack_from("<2i", data, place)
+            lines = min(16, self.height - y)
+            whole = 4 * self.width * lines * len(self.names)
+            packed = data[place + 8:place + 8 + size]
+            raw = packed if size == whole else self.unpacked(zlib.decompress(packed))
+            values = struct.unpack(f"<{whole // 4}f", raw)
+            for line in range(lines):
+                for i, name in enumerate(self.names):
+                    start = (line * len(self.names) + i) * self.width
+                    self.rows[name].append(values[start:start + self.width])
+
+    @staticmethod
+    def unpacked(data: bytes) -> bytes:
+        bytes_, last = bytearray(data), data[0]
+        for i in range(1, len(bytes_)):
+            last = bytes_[i] = (last + bytes_[i] - 128) & 255
+        half = (len(bytes_) + 1) // 2
+        out = bytearray(len(bytes_))
+        out[0::2], out[1::2] = bytes_[:half], bytes_[half:]
+        return bytes(out)
+
+    def __getitem__(self, name):
+        """Rows of a channel, the top one first."""
+        return self.rows[name]

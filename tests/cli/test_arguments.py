@@ -13,7 +13,7 @@ NO_NUMBERS = ("nan", "-nan", "inf", "-inf", "infinity", "1e400", "-1e400", "", "
 
 
 VERBS = ("bake", "light", "shade", "render", "reference", "compare", "rtt", "synthesize", "view",
-         "info")
+         "sky", "info")
 
 
 class Numbers(ToolTest):
@@ -27,6 +27,7 @@ class Numbers(ToolTest):
     RTT = ("rtt", "weave", "-o", "a.rtt")
     VIEW = ("view", "ball.glb")
     COMPARE = ("compare", "a.exr", "b.exr")
+    SKY = ("sky", "--sun-elevation", "10", "-o", "a.png")
 
     REALS = [  # command, option, the least and the most
         (("light", "uniform", "-o", "a.json"), "--rotate-y", -1e6, 1e6),
@@ -49,6 +50,8 @@ class Numbers(ToolTest):
         (RTT, "--blend", 0, 0.5),
         (RTT, "--lobe", 0, 1e5),
         (RTT, "--white", 1e-6, 1e6),
+        (SKY, "--fov", 0.01, 170),
+        (SKY, "--exposure", -60, 60),
     ]
     WHOLES = [
         (BAKE, "--threads", 0, 4096),
@@ -73,6 +76,7 @@ class Numbers(ToolTest):
         (RTT, "--directions", 16, 16384),
         (RTT, "--supersample", 1, 8),
         (RTT, "--seed", 0, 2**32 - 1),
+        (SKY, "--frames", 1, 10000),
         (VIEW, "--light-samples", 1, 64),
         (VIEW, "--port", 0, 65535),
     ]
@@ -208,7 +212,7 @@ class Replaced(ToolTest):
                                  ("cube:c.png", "c.png"), ("uniform:1e+3+cube:c.png", "c.png")):
                 self.kept(verb, thing, "--light", source, "-o", file, *more,
                           says=["--output", file, "--light"])
-        self.write("air.json", '{"lambent": "atmosphere", "ozone": 250}')
+        self.write("air.json", '{"lambent": "atmosphere", "ozone_dobson": 250}')
         sky = "uniform+sky:sun-elevation=+30,model=preetham,atmosphere=air.json"
         self.kept("light", sky, "-o", "air.json", says=["--output", "SOURCE"])
         self.kept("light", "l.json", "-o", "l.json", says=["--output", "SOURCE"])

@@ -203,10 +203,10 @@ class BadLight(ToolTest):
 
 
     def test_damaged_atmospheres(self):
-        for name, text in (("cut.json", '{"lambent": "atmosphere", "ozone"'), ("list.json", "[]"),
+        for name, text in (("cut.json", '{"lambent": "atmosphere", "ozone_dobson"'), ("list.json", "[]"),
                            ("light.json", '{"lambent": "light"}'),
                            ("key.json", '{"lambent": "atmosphere", "haze": 3}'),
-                           ("range.json", '{"lambent": "atmosphere", "height": -1}')):
+                           ("range.json", '{"lambent": "atmosphere", "top_km": -1}')):
             self.write(name, text)
             self.refused("light", f"sky:sun-elevation=30,model=preetham,atmosphere={name}", "-o",
                          "out.json", code=BAD_INPUT, says=name)

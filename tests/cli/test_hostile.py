@@ -76,7 +76,10 @@ class Hostile(ToolTest):
         self.write("view.json", '{"lambent":"view","version":1,"camera":' + deep + "}")
         self.write("scene.gltf", '{"asset":{"version":"2.0"},"extras":' + deep + "}")
         words = "nested more than 200 deep at byte"
+        self.write("air.json", '{"lambent":"atmosphere","air":' + deep + "}")
         self.run_cheaply("light", "light.json", "-o", "x.json", says=["light.json", words])
+        self.run_cheaply("light", "sky:sun-elevation=9,atmosphere=air.json", "-o", "x.json",
+                         says=["air.json", words])
         self.run_cheaply("info", "scene.gltf", says=["scene.gltf", words])
         self.bake()
         self.run_cheaply("render", "ball.glb", "--view", "view.json", "-o", "x.png",

@@ -7,7 +7,7 @@ import subprocess
 
 from harness import DONE, TOOL, USAGE, ToolTest, ball_obj
 
-VERBS = ["bake", "light", "shade", "render", "reference", "compare", "info"]
+VERBS = ["bake", "light", "shade", "render", "reference", "compare", "sky", "info"]
 
 
 class Usage(ToolTest):

@@ -331,6 +331,15 @@ class Synthesize(Verb, ToolTest):
         self.run_tool(*PATCH, "-o", "patch.rtt")
 
 
+class Sky(Verb, ToolTest):
+    command = ("sky", "--sun-elevation", 25, "--model", "preetham", "-o", "out.exr", "--size", 16,
+               "--at-file", "at.csv", "--wavelengths", "450,550")
+    outputs = ("out.exr",)
+
+    def inputs(self):
+        self.write("at.csv", "0,30\n90,10\n")
+
+
 class Info(Verb, ToolTest):
     command = ("info", "ball.glb")
     from_the_start = True

@@ -22,11 +22,13 @@ struct Named {
   const char* name;
   fuzz::Target* run;
 };
-constexpr Named kTargets[] = {{"gltf", fuzz::gltf},    {"obj", fuzz::obj},     {"ply", fuzz::ply},
-                              {"asset", fuzz::asset},  {"rtt", fuzz::rtt},     {"exr", fuzz::exr},
-                              {"hdr", fuzz::hdr},      {"png", fuzz::png},     {"jpeg", fuzz::jpeg},
-                              {"webp", fuzz::webp},    {"light", fuzz::light}, {"view", fuzz::view},
-                              {"source", fuzz::source}};
+constexpr Named kTargets[] = {{"gltf", fuzz::gltf},     {"obj", fuzz::obj},
+                              {"ply", fuzz::ply},       {"asset", fuzz::asset},
+                              {"rtt", fuzz::rtt},       {"exr", fuzz::exr},
+                              {"hdr", fuzz::hdr},       {"png", fuzz::png},
+                              {"jpeg", fuzz::jpeg},     {"webp", fuzz::webp},
+                              {"light", fuzz::light},   {"view", fuzz::view},
+                              {"source", fuzz::source}, {"atmosphere", fuzz::atmosphere}};
 
 /// As much as a fuzzer's process may hold; sanitizers keep what was freed for a while.
 constexpr long kMostKibibytes = 1 << 20;

@@ -19,7 +19,7 @@ bool enterFolder() {
   folder.write("ball.png", image::encodePng(1, 1, 3, std::span(grey).first(3)));
   folder.write("light.json", std::string_view(R"({"lambent": "light", "bands": 1,
     "coefficients": [[0.5, 0.5, 0.5]]})"));
-  folder.write("air.json", std::string_view(R"({"lambent": "atmosphere", "ozone": 250})"));
+  folder.write("air.json", std::string_view(R"({"lambent": "atmosphere", "ozone_dobson": 250})"));
   std::filesystem::current_path(folder / "");
   return true;
 }

@@ -158,6 +158,12 @@ inline float floor(float x) {
 inline float ceil(float x) {
   return std::ceil(x);
 }
+inline float exp(float x) {
+  return std::exp(x);
+}
+inline float log(float x) {
+  return std::log(x);
+}
 inline float log2(float x) {
   return std::log2(x);
 }
@@ -209,6 +215,9 @@ inline int clamp(int x, int low, int high) {
   }                                                                              \
   inline V floor(const V& a) {                                                   \
     return each<V>([&](int i) { return std::floor(a[i]); });                     \
+  }                                                                              \
+  inline V exp(const V& a) {                                                     \
+    return each<V>([&](int i) { return std::exp(a[i]); });                       \
   }                                                                              \
   inline V fract(const V& a) {                                                   \
     return a - floor(a);                                                         \

@@ -1,0 +1,46 @@
+// What hides a point of the Sun from a scene: a map of depths, drawn anew for every sub-sample of a
+// picture, each for its own point of the disc. So penumbrae come of the disc itself, as wide as they
+// are, and the borders of shadows are as smooth as those of surfaces are.
+#pragma once
+
+#include "lambent/light/sun.h"
+#include "lambent/render/gl_objects.h"
+#include "lambent/render/gl_view.h"
+#include "lambent/scene/scene.h"
+
+namespace lambent::render {
+
+class GlSunMap {
+ public:
+  /// Texels of a side, where GL takes as many.
+  static constexpr int kSide = 2048;
+
+  static Result<GlSunMap> make(int largestTexture);
+
+  /// Draws the map of what `view` sees of what stands in `bounds`, as the point of the Sun `sun` looks
+  /// at it. drawPieces() draws everything, with vertices as unlit.vert.glsl has them. Leaves another
+  /// framebuffer, viewport, depth test and program than before.
+  template <class DrawPieces>
+  void draw(const light::SunPoint& sun, const GlView& view, const scene::Box& bounds,
+            DrawPieces drawPieces) {
+    begin(sun, view, bounds);
+    drawPieces();
+    end();
+  }
+  /// Gives a program that holds sun_shadow.glsl the map.
+  void bind(const Program& program) const;
+
+ private:
+  void begin(const light::SunPoint& sun, const GlView& view, const scene::Box& bounds);
+  void end() const;
+
+  Texture depth_;
+  Framebuffer framebuffer_;
+  Program program_;
+  int side_ = 0;
+  Mat3 frameFromWorld_ = Mat3::Identity();
+  Mat4 mapFromWorld_ = Mat4::Identity();
+  float texel_ = 1, range_ = 1;
+};
+
+}  // namespace lambent::render
