@@ -18,11 +18,11 @@
 namespace lambent::page {
 namespace {
 
-constexpr double kFloor = 0.01;       // beside which aerosols' share does not show
+constexpr double kFloor = 0.01;                // beside which aerosols' share does not show
+constexpr double kNoHaze = 0.04586 / 0.04608;  // sky::withTurbidity: the turbidity of no aerosols
 constexpr double kGroundWeight = 20;  // of its three columns, which stand for all of the ground
 constexpr int kSunNodes = 128;
 constexpr double kSunStep = 1e-3;  // to which logarithms of the Sun's light are rounded
-constexpr double kLowestDisc = -0.5 * kPi / 180;  // no part of the disc stands above the horizon
 
 double safeLog(double value) {
   return std::log(std::max(value, 1e-20));
@@ -34,7 +34,10 @@ std::vector<double> fineWavelengths() {
   return nm;
 }
 
-std::vector<double> rowOf(const sky::SkyTable& table, double elevation) {
+std::vector<double> rowOf(const TurbidSky& sky, double elevation) {
+  const sky::SkyTable& table = sky.table;
+  // Of which there are in proportion to this: what is left depends little on turbidity.
+  const double haze = *sky.atmosphere.turbidity - kNoHaze;
   const std::vector<sky::SkyTable::NodeColor> colors = table.nodeColors(elevation);
   const std::size_t nodes = std::size_t(table.view().above) * std::size_t(table.view().azimuths);
   std::vector<double> row;
@@ -42,7 +45,8 @@ std::vector<double> rowOf(const sky::SkyTable& table, double elevation) {
     for (int c = 0; c < 3; ++c)
       for (std::size_t n = 0; n < nodes; ++n) {
         const double rest = std::max(colors[n].rest[c], 1e-20);
-        row.push_back(part == 0 ? std::log(rest) : std::log(colors[n].aerosols[c] / rest + kFloor));
+        row.push_back(part == 0 ? std::log(rest)
+                                : std::log(colors[n].aerosols[c] / rest / haze + kFloor));
       }
   const std::vector<double> nm = fineWavelengths();
   const radiometry::Xyzv ground =
@@ -51,13 +55,8 @@ std::vector<double> rowOf(const sky::SkyTable& table, double elevation) {
   return row;
 }
 
+/// Below the horizon the Sun's light counts as on it, in the tables as in the analytic models.
 double discElevation(int node) {
-  const double t = double(node) / (kSunNodes - 1);
-  return kLowestDisc + (kPi / 2 - kLowestDisc) * t * t;
-}
-
-/// Analytic models hold a Sun below the horizon on it.
-double plainElevation(int node) {
   const double t = double(node) / (kSunNodes - 1);
   return kPi / 2 * t * t;
 }
@@ -94,7 +93,7 @@ Result<std::string> compactTable(const std::vector<TurbidSky>& skies,
   const std::vector<double> elevations = skies.front().table.sunElevations();
   std::vector<std::vector<double>> rows;
   for (const TurbidSky& each : skies)
-    for (const double elevation : elevations) rows.push_back(rowOf(each.table, elevation));
+    for (const double elevation : elevations) rows.push_back(rowOf(each, elevation));
   Eigen::MatrixXd m(Eigen::Index(rows.size()), Eigen::Index(rows.front().size()));
   for (Eigen::Index r = 0; r < m.rows(); ++r)
     m.row(r) = Eigen::Map<const Eigen::RowVectorXd>(rows[std::size_t(r)].data(), m.cols());
@@ -139,7 +138,7 @@ Result<std::string> compactTable(const std::vector<TurbidSky>& skies,
       sky::SkyOptions asked;
       asked.model = sky::Model::Preetham;
       asked.atmosphere = each.atmosphere;
-      asked.sunElevation = plainElevation(e);
+      asked.sunElevation = discElevation(e);
       const auto made = sky::makeSky(asked);
       if (!made) return made.error();
       suns.push_back(made->value.sun.irradiance / made->value.sun.visible);
@@ -152,10 +151,10 @@ Result<std::string> compactTable(const std::vector<TurbidSky>& skies,
   const sky::ViewGrid& view = skies.front().table.view();
   std::string header = fmt::format(
       R"({{"turbidities":{},"logTurbidityStep":{},"suns":{},"above":{},"azimuths":{},)"
-      R"("step":{},"weightSteps":[{:.6g}],"floor":{},"sunNodes":{},"lowestDisc":{},"sunStep":{},)"
+      R"("step":{},"weightSteps":[{:.6g}],"floor":{},"noHaze":{},"sunNodes":{},"sunStep":{},)"
       R"("sunElevations":[{:.7f}]}})",
       skies.size(), std::log(10.0) / 10, elevations.size(), view.above, view.azimuths, options.step,
-      fmt::join(weightSteps, ","), kFloor, kSunNodes, kLowestDisc, kSunStep,
+      fmt::join(weightSteps, ","), kFloor, kNoHaze, kSunNodes, kSunStep,
       fmt::join(elevations, ","));
   std::string out = "lambsky1";
   for (int byte = 0; byte < 4; ++byte) out.push_back(char((header.size() >> (8 * byte)) & 0xff));

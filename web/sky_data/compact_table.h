@@ -36,11 +36,12 @@ struct TurbidSky {
 ///                      simulation and of the analytic models
 /// mean + Σ weight · basis are logarithms, natural as all here; columns are
 ///   [part][X, Y, Z][row][azimuth]: part 0 is luminance (cd m⁻²) but for that which aerosols
-///   scattered once; part 1 is log(r + floor), r that light without its phase function over part 0;
+///   scattered once; part 1 is log(r + floor), r that light without its phase function over part 0
+///   and over (turbidity − noHaze);
 ///   then [X, Y, Z] of the dome's irradiance of the ground (lx).
 /// Rows and azimuths are those of ViewGrid above the horizon, and Suns those of
-/// SkyTable::sunElevations(). Elevation e of the n of `sun` is low + (π/2 − low) (e/(n − 1))², low
-/// being lowestDisc, and 0 for `plainSun`.
+/// SkyTable::sunElevations(). Elevation e of the n = sunNodes of `sun` and `plainSun` is
+/// π/2 (e/(n − 1))².
 Result<std::string> compactTable(const std::vector<TurbidSky>& skies,
                                  const CompactOptions& options);
 

@@ -44,6 +44,9 @@ const kPlaces: readonly [string, number, number, number][] = [
   ["Sydney", -33.87, 151.21, 10],
 ];
 
+const kSunset = -0.27; // degrees: the last of the disc
+const kNight = -18;
+
 const kModels: readonly [SkyModel, string][] = [
   ["fast", "Simulated, clear"],
   ["preetham", "Preetham"],
@@ -60,20 +63,30 @@ function defaultSky(): SkySettings {
   };
 }
 
-/** Minutes of the clock at which the Sun passes an elevation (degrees), upwards and downwards. */
-function crossings(moment: SkyMoment, elevation: number): { up: number[]; down: number[] } {
+/** The Sun's elevation in degrees every ten minutes of a day, both midnights among them. */
+function elevationsOf(day: SkyMoment): number[] {
+  return Array.from({ length: 24 * 6 + 1 }, (_, i) => {
+    const sun = { ...day, minutes: 10 * i };
+    const request = requestOf({ sun, model: "fast", turbidity: kClearTurbidity });
+    return LambentSky.sun(request).elevation / kRadians;
+  });
+}
+
+/** Minutes of the clock at which the Sun passes an elevation, upwards and downwards. */
+function crossings(elevations: readonly number[], at: number): { up: number[]; down: number[] } {
   const [up, down]: [number[], number[]] = [[], []];
-  const at = (minutes: number) =>
-    LambentSky.sun(requestOf({ sun: { ...moment, minutes }, model: "fast", turbidity: 2 }))
-      .elevation / kRadians - elevation;
-  const kStep = 10;
-  for (let minutes = 0, before = at(0); minutes < 1440; minutes += kStep) {
-    const after = at(minutes + kStep);
+  for (let i = 0; i + 1 < elevations.length; ++i) {
+    const [before, after] = [elevations[i]! - at, elevations[i + 1]! - at];
     if (before < 0 !== after < 0)
-      (after < 0 ? down : up).push(minutes + (kStep * before) / (before - after));
-    before = after;
+      (after < 0 ? down : up).push(10 * (i + before / (before - after)));
   }
   return { up, down };
+}
+
+/** Of a day's strip: night, twilight and day. */
+function stripColor(elevation: number): string {
+  if (elevation >= kSunset) return "#f2c879";
+  return elevation >= kNight ? "#5a76a8" : "#23272e";
 }
 
 export class SkyControls {
@@ -85,6 +98,7 @@ export class SkyControls {
   private readonly rest: HTMLElement[];
   private readonly on;
   private readonly follow;
+  private readonly strip = h("div", { class: "day", "aria-hidden": "true" });
   private readonly words = h("p", { class: "figures", id: "sky-facts", "aria-live": "polite" });
 
   constructor(private readonly actions: SkyActions) {
@@ -144,6 +158,7 @@ export class SkyControls {
     });
     this.rest = [
       number("Time", [0, 1439, 1], clock, "minutes"),
+      this.strip,
       this.words,
       h("div", { class: "select" }, h("label", { for: "sky-date" }, "Date"), date),
       places.element,
@@ -163,6 +178,7 @@ export class SkyControls {
     this.on.set(shown !== null);
     this.follow.set(facts.follows);
     for (const each of this.rest) each.hidden = shown === null;
+    this.strip.hidden = shown === null || !isMoment(this.settings.sun);
     if (shown === null) return;
     for (const set of this.set) set();
     this.words.textContent = facts.problem ?? this.sayWhere();
@@ -186,18 +202,25 @@ export class SkyControls {
     const sun = `The Sun stands at ${(elevation / kRadians).toFixed(1)}°, ` +
       `bearing ${(azimuth / kRadians).toFixed(0)}°.`;
     if (!isMoment(this.settings.sun)) return sun;
-    const moment = this.settings.sun;
-    const day = JSON.stringify({ ...moment, minutes: 0 });
-    if (day !== this.day) {
-      this.day = day;
-      const { up, down } = crossings(moment, -0.27);
-      const times = (all: number[]) => all.map((each) => clock(Math.round(each))).join(", ");
-      this.dayWords =
-        up.length + down.length === 0
-          ? " It neither rises nor sets."
-          : ` Sunrise ${times(up) || "none"}, ` +
-            `sunset ${times(down) || "none"}.`;
-    }
+    this.readDay(this.settings.sun);
     return sun + this.dayWords;
+  }
+  /** When it rises and sets, in words and on the strip. */
+  private readDay(moment: SkyMoment): void {
+    const day = JSON.stringify({ ...moment, minutes: 0 });
+    if (day === this.day) return;
+    this.day = day;
+    const elevations = elevationsOf(moment);
+    const { up, down } = crossings(elevations, kSunset);
+    const times = (all: number[]) => all.map((each) => clock(Math.round(each))).join(", ") || "none";
+    this.dayWords =
+      up.length + down.length === 0
+        ? " It neither rises nor sets."
+        : ` Sunrise ${times(up)}, sunset ${times(down)}.`;
+    const steps = elevations.slice(0, -1).map((elevation, i) => {
+      const color = stripColor((elevation + elevations[i + 1]!) / 2);
+      return `${color} ${(100 * i) / 144}% ${(100 * (i + 1)) / 144}%`;
+    });
+    this.strip.style.background = `linear-gradient(to right, ${steps.join(", ")})`;
   }
 }

@@ -27,8 +27,8 @@ interface Header {
   step: number;
   weightSteps: number[];
   floor: number;
+  noHaze: number;
   sunNodes: number;
-  lowestDisc: number;
   sunStep: number;
 }
 
@@ -163,7 +163,8 @@ export class SkyData {
    * @param sunElevation radians, −18° … 90°
    */
   dome(turbidity: number, sunElevation: number): { grid: DomeGrid; diffuse: Triple } {
-    const { above, azimuths, floor } = this.header;
+    const { above, azimuths, floor, noHaze } = this.header;
+    const haze = turbidity - noHaze;
     const coarse = this.mix(turbidity, sunElevation);
     const nodes = above * azimuths;
     const grid = new Float32Array(3 * kDomeRows * kDomeColumns);
@@ -183,7 +184,7 @@ export class SkyData {
       const elevation = domeElevation(r);
       const [up, level] = [Math.sin(elevation) * sine, Math.cos(elevation) * cosine];
       for (let c = 0; c < kDomeColumns; ++c) {
-        const phase = aerosolPhase(up + level * Math.cos(domeAzimuth(c)));
+        const phase = haze * aerosolPhase(up + level * Math.cos(domeAzimuth(c)));
         const { first, weight } = this.columnTaps[c];
         const at = (part: number) => {
           const from = part * azimuths + first;
@@ -206,16 +207,15 @@ export class SkyData {
 
   /** X, Y, Z (lx) on a surface that faces the Sun, all of whose disc is above the horizon. */
   sun(turbidity: number, sunElevation: number): Triple {
-    const { lowestDisc } = this.header;
-    return this.sunOf(this.suns, turbidity, sunElevation, lowestDisc);
+    return this.sunOf(this.suns, turbidity, sunElevation);
   }
   /** The same, as the analytic models have it. */
   plainSun(turbidity: number, sunElevation: number): Triple {
-    return this.sunOf(this.plainSuns, turbidity, sunElevation, 0);
+    return this.sunOf(this.plainSuns, turbidity, sunElevation);
   }
-  private sunOf(table: Float64Array, turbidity: number, elevation: number, lowest: number): Triple {
+  private sunOf(table: Float64Array, turbidity: number, elevation: number): Triple {
     const { sunNodes } = this.header;
-    const t = Math.sqrt(Math.max(0, (elevation - lowest) / (Math.PI / 2 - lowest)));
+    const t = Math.sqrt(Math.max(0, elevation) / (Math.PI / 2));
     const high = cubicTaps(t * (sunNodes - 1), sunNodes);
     const haze = this.turbidityTaps(turbidity);
     const out: Triple = [0, 0, 0];
