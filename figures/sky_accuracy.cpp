@@ -95,9 +95,9 @@ void againstPublished(sky::Model model, const std::string& name) {
 void skyAccuracy(const Studio& studio) {
   againstPublished(sky::Model::Fast, "fast");
   if (studio.quick) return;
+  againstPublished(sky::Model::Exact, "exact");
   fmt::print("\n");
   fastAgainstExact(studio.suns);
-  againstPublished(sky::Model::Exact, "exact");
 }
 
 }  // namespace lambent::figures

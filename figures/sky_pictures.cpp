@@ -49,7 +49,7 @@ double terrainHeight(double x, double z) {
     weight = std::clamp(1.6 * ridge, 0.0, 1.0);
     share *= .5, frequency *= 2.03;
   }
-  const double fromValley = std::abs(x - 900 * std::sin(z / 5200)) / 5200;
+  const double fromValley = std::abs(x - 900 * std::sin(z / 5200)) / 3600;
   const double rise = std::clamp(fromValley * fromValley, .04, 1.0);
   return 1750 * rise * ridges;
 }
@@ -94,20 +94,19 @@ struct Lookout {
 Lookout lookout(const Studio& studio) {
   Lookout out;
   const double z = 3000;
-  out.eye = Vec3(700, float(terrainHeight(700, z) + 900), float(z));
-  out.elevation = -2 * kDegree, out.verticalFov = 38 * kDegree;
-  out.width = studio.pixels(400), out.height = studio.pixels(225);
+  out.eye = Vec3(700, float(terrainHeight(700, z) + 650), float(z));
+  out.elevation = 3 * kDegree, out.verticalFov = 34 * kDegree;
+  out.width = studio.pixels(288), out.height = studio.pixels(162);
   return out;
 }
 
-/// Filmic, with white clouds of the title's text in the corner left to the sheet.
 image::Image toned(const image::Image& linear, double ev) {
   return tone::toneMap(linear, float(ev), tone::Curve::Filmic);
 }
 
-/// log₂ of .18 over the mean luminance.
+/// log₂ of .25 over the mean luminance.
 double autoExposure(double candelas) {
-  return std::log2(.18 * radiometry::kPhotopicEfficacy / candelas);
+  return std::log2(.25 * radiometry::kPhotopicEfficacy / candelas);
 }
 /// As light meters have it for ISO 100: log₂ (L · 100 / 12.5).
 double exposureValue(double candelas) {
@@ -152,14 +151,14 @@ void skyPreetham(const Studio& studio) {
   const Lookout view = lookout(studio);
   Sheet sheet;
   sheet.columnLabels = {"turbidity 2", "turbidity 6"};
-  for (const double elevation : {45., 15., 3.}) {
+  for (const double elevation : {40., 6.}) {
     std::vector<image::Image> row;
     for (const double turbidity : {2., 6.}) {
       sky::SkyOptions options = skyOptions("clear", sky::Model::Preetham, 90 - elevation);
       options.atmosphere = sky::withTurbidity(options.atmosphere, turbidity);
       const image::Image picture =
-          pathTraced(land, sky::environmentOf(skyOf(options), sky::worldFromSunAt(38 * kDegree)),
-                     view, studio.paths(128), true);
+          pathTraced(land, sky::environmentOf(skyOf(options), sky::worldFromSunAt(62 * kDegree)),
+                     view, studio.paths(512), true);
       const double mean = meanLuminance(picture);
       row.push_back(toned(picture, autoExposure(mean)));
       fmt::print("Sun at {:g} degrees, turbidity {:g}: mean luminance {:.4g} cd/m2, EV {:.1f}\n",
@@ -178,16 +177,16 @@ void skyAerial(const Studio& studio) {
   std::vector<double> nm;
   for (double at = 380; at <= 740; at += 24) nm.push_back(at);
   Sheet sheet;
-  sheet.columnLabels = {"Sun 30 up, to the right", "Sun 6 up, ahead"};
+  sheet.columnLabels = {"Sun 35 up", "Sun 8 up"};
   sheet.rowLabels = {"no air", "constant density", "table", "exact"};
   sheet.rows.resize(sheet.rowLabels.size());
-  for (const auto& [elevation, bearing] : {std::pair(30., 100.), std::pair(6., 12.)}) {
+  for (const auto& [elevation, bearing] : {std::pair(35., 105.), std::pair(8., 50.)}) {
     sky::SkyOptions options = skyOptions("clear", sky::Model::Fast, 90 - elevation);
     options.altitude = double(view.eye.y());
     const sky::Sky sky = skyOf(options);
     const Mat3d worldFromSun = sky::worldFromSunAt(bearing * kDegree);
     const image::Image bare =
-        pathTraced(land, sky::environmentOf(sky, worldFromSun), view, studio.paths(192), false);
+        pathTraced(land, sky::environmentOf(sky, worldFromSun), view, studio.paths(512), false);
     const auto scattering = orDie(
         sky::Scattering::solve(sky::mediumOf(options.atmosphere, nm), sky::Resolution::fast()));
     const sky::ViewerInAir viewer{options.altitude, options.sunElevation};
@@ -223,7 +222,7 @@ void skyAerial(const Studio& studio) {
 }
 
 void sky24Hours(const Studio& studio) {
-  const int size = studio.pixels(148), text = 26;
+  const int size = studio.pixels(124), text = 26;
   Sheet sheet;
   fmt::print("| time | Sun | luminance of the sky, cd/m² | EV |\n|---|---|---|---|\n");
   for (int hour = 0; hour < 24; ++hour) {
@@ -234,7 +233,7 @@ void sky24Hours(const Studio& studio) {
     request.date = "2026-06-21", request.time = fmt::format("{:02}:00", hour);
     request.utcOffset = 2, request.latitude = 46, request.longitude = 6;
     const auto resolved = sky::resolve(request);
-    std::string below = "night";
+    std::string below = "night, below -18";
     if (resolved) {
       sky::SkyOptions options = resolved->value.options;
       options.cache = sky::cacheFolder();
