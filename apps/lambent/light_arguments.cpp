@@ -38,6 +38,10 @@ void LightArguments::addWindowTo(CLI::App& app) {
       ->group("Light");
 }
 
+Mat3d LightArguments::worldFromSource() const {
+  return Eigen::AngleAxisd(rotateY * kPi / 180.0, Vec3d::UnitY()).toRotationMatrix();
+}
+
 Result<light::Environment> LightArguments::environment(const ReadingArguments& reading,
                                                        Console& console) const {
   auto parsed = console.stage(
@@ -45,8 +49,7 @@ Result<light::Environment> LightArguments::environment(const ReadingArguments& r
   if (!parsed) return parsed.error();
   console.report(parsed->findings);
   if (rotateY == 0.0) return std::move(parsed->value);
-  const float angle = float(rotateY * kPi / 180.0);
-  return parsed->value.rotated(Eigen::AngleAxisf(angle, Vec3::UnitY()).toRotationMatrix());
+  return parsed->value.rotated(worldFromSource().cast<float>());
 }
 
 Result<sh::RgbCoefficients> LightArguments::coefficients(const light::Environment& environment,

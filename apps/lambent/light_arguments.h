@@ -25,6 +25,8 @@ struct LightArguments {
   /// Returns the option of the source, which is required.
   CLI::Option* addTo(CLI::App& app, bool positional);
   void addWindowTo(CLI::App& app);
+  /// How the source is turned.
+  Mat3d worldFromSource() const;
   Result<light::Environment> environment(const ReadingArguments& reading, Console& console) const;
   /// The environment in n bands, windowed.
   Result<sh::RgbCoefficients> coefficients(const light::Environment& environment, int bands,

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/lambent/air_arguments.h"
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
@@ -41,6 +42,7 @@ struct RenderRequest {
   Backend backend = Backend::Gl;
   int samples = 16;
   ShowingArguments showing;
+  AirArguments air;
   ReadingArguments reading;
   const CLI::App* app = nullptr;
 
@@ -58,6 +60,8 @@ Examples:
       What was set up in 'lambent view' and saved there, as a smoother picture.
   lambent render bunny.glb --light sky:sun-elevation=20,sun-azimuth=140 -o bunny.png --background
       The sky by day, with the Sun's own sharp shadow (bake with --keep-shadowed).
+  lambent render hills.glb --light sky:sun-elevation=8,turbidity=4 -o hills.png --background --air
+      The same with the air of that sky before what is far away.
   lambent render bird.glb --light sky.exr -o flat.png --macro shadowed --view-dependence off
       A surface with meso-structure, without light that its shape bounces, and pasted on.
 )";
@@ -92,7 +96,12 @@ Result<Shot> shotOf(const RenderRequest& arguments, const asset::Asset& asset, C
   std::optional<shade::SharpSun> sun;
   if (arguments.showing.sunShadow == shade::SunShadow::Sharp)
     sun = arguments.light.sharpSun(*environment, asset.transfer.bands);
-  return Shot{*environment, *light, *camera, std::move(sun)};
+  return Shot{*environment,
+              *light,
+              *camera,
+              std::move(sun),
+              arguments.light.source,
+              arguments.light.worldFromSource()};
 }
 
 Status runRender(RenderRequest arguments, Console& console) {
@@ -126,6 +135,11 @@ Status runRender(RenderRequest arguments, Console& console) {
   if (Status s = checkHeld(*asset, options.showing, arguments.asset); !s) return s;
   options.sun = shot->sun;
   if (options.sun) console.report(shade::sharpSunFindings(*asset, options.showing));
+  if (arguments.air.wanted) {
+    auto air = arguments.air.make(shot->source, shot->assetFromEnvironment, console);
+    if (!air) return air.error();
+    options.air = std::move(*air);
+  }
   const auto backend =
       arguments.backend == Backend::Gl ? &render::picture : &reference::relitPicture;
   const auto began = std::chrono::steady_clock::now();
@@ -159,6 +173,7 @@ Status runRender(RenderRequest arguments, Console& console) {
        {"backend", name},
        {"exposure", ev},
        {"sun_shadow", !options.sun ? nlohmann::json() : nlohmann::json("sharp")},
+       {"metres_per_unit", options.air ? nlohmann::json(options.air->metresPerUnit) : nullptr},
        {"seconds", seconds},
        {"picture", describe(*picture).json}},
       fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", arguments.output.string(),
@@ -196,6 +211,7 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
   arguments->showing.addTo(*app);
   arguments->showing.addFilterTo(*app);
   arguments->showing.addSunTo(*app);
+  arguments->air.addTo(*app);
   arguments->development.addTo(*app);
   arguments->light.addWindowTo(*app);
   arguments->reading.addTo(*app);

@@ -60,8 +60,13 @@ Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
   const light::Environment& environment = parsed->value;
   return console.stage("project", [&] {
     view::StateLight light(environment, options.bands);
-    return Shot{view::assetEnvironment(state, environment), light.asset(state),
-                view::assetCamera(state, camera), light.sharpSun(state)};
+    return Shot{view::assetEnvironment(state, environment),
+                light.asset(state),
+                view::assetCamera(state, camera),
+                light.sharpSun(state),
+                state.environment,
+                Mat3d(view::matrixOf(state.objectRotation).transpose() *
+                      view::matrixOf(state.environmentRotation))};
   });
 }
 

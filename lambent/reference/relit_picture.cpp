@@ -123,7 +123,9 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
         const std::optional<trace::Hit> hit = rays->closest(ray.origin, ray.direction);
         if (!hit) continue;
         ++covered;
-        sum += lit.exitRadiance(*hit, -ray.direction, sun.empty() ? nullptr : &sun[i]);
+        const Rgb radiance =
+            lit.exitRadiance(*hit, -ray.direction, sun.empty() ? nullptr : &sun[i]);
+        sum += options.air ? options.air->seen(ray.direction, hit->distance, radiance) : radiance;
       }
       image.at(x, y) = share * sum;
       image.alpha[std::size_t(y) * width + x] = float(covered) / float(positions.size());

@@ -125,6 +125,9 @@ void Program::set(const char* uniform, unsigned value) const {
 void Program::set(const char* uniform, int x, int y) const {
   glProgramUniform2i(program_.name(), location(uniform), x, y);
 }
+void Program::set(const char* uniform, int x, int y, int z) const {
+  glProgramUniform3i(program_.name(), location(uniform), x, y, z);
+}
 void Program::set(const char* uniform, int x, int y, int z, int w) const {
   glProgramUniform4i(program_.name(), location(uniform), x, y, z, w);
 }

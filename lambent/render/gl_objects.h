@@ -103,6 +103,7 @@ class Program {
   void set(const char* uniform, int value) const;
   void set(const char* uniform, unsigned value) const;
   void set(const char* uniform, int x, int y) const;
+  void set(const char* uniform, int x, int y, int z) const;
   void set(const char* uniform, int x, int y, int z, int w) const;
   void set(const char* uniform, float value) const;
   void set(const char* uniform, float x, float y) const;

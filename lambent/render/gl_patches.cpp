@@ -214,10 +214,11 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
   const std::string defines = fmt::format(
       "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
       "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_RTT_PLACE int\n#define LAMBENT_ID_MAP 1\n"
-      "{}\n{}\n",
-      groupsOf(bands), interpolated, filter, numbersDefine(encoding),
+      "#define LAMBENT_AIR {:d}\n{}\n{}\n",
+      groupsOf(bands), interpolated, filter, options_.air != nullptr, numbersDefine(encoding),
       unrolledDefines(bands, encoding));
   std::vector<std::string> fragment = {defines};
+  if (options_.air) fragment.push_back(airSource());
   for (const char* name :
        {"incident.glsl", "corner_weights.glsl", "rtt_response.glsl", "view_square.glsl",
         "rtt_footprint.glsl", "rtt_look_up.glsl", "tangent_frame.glsl", "shading_normal.glsl",
@@ -323,6 +324,7 @@ void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
     program.set("pixelWidth", view.sampleWidth.perMetre, view.sampleWidth.constant);
+    if (options_.air) options_.air->bind(program);
     program.set("views", encoded.views);
     program.set("viewDependent", int(showing_.viewDependent));
     program.set("hasIdMap", int(biScale.patch.idMap() != nullptr));

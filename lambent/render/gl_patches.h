@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "lambent/asset/asset.h"
+#include "lambent/render/gl_air.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
@@ -17,8 +19,9 @@
 namespace lambent::render {
 
 struct GlPatchOptions {
-  std::size_t largestBlock = 0;  ///< bytes of one storage buffer
-  int largestTexture = 0;        ///< side, in texels
+  std::size_t largestBlock = 0;           ///< bytes of one storage buffer
+  int largestTexture = 0;                 ///< side, in texels
+  std::shared_ptr<const GlAir> air = {};  ///< between them and the eye; null for none
 };
 
 class GlPatches {

@@ -30,7 +30,7 @@ Status GlScene::addAll() {
 }
 
 Result<GlScene> GlScene::make(const asset::Asset& asset, const GlSceneOptions& options) {
-  GlScene scene(asset, options, TransferOnGpu::Residence::Keep);
+  GlScene scene(asset, options, TransferOnGpu::Residence::Keep, nullptr);
   const Program::Stage stages[] = {
       {GL_VERTEX_SHADER, "unlit.vert.glsl", {std::string(shaderSource("unlit.vert.glsl"))}},
       {GL_FRAGMENT_SHADER,
@@ -47,7 +47,13 @@ Result<GlScene> GlScene::make(const asset::Asset& asset, const GlSceneOptions& o
 
 Result<GlScene> GlScene::makeLit(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                  const GlSceneOptions& options) {
-  GlScene scene(asset, options, TransferOnGpu::Residence::Stream);
+  std::shared_ptr<const GlAir> air;
+  if (options.air) {
+    Result<GlAir> made = GlAir::make(*options.air, options.largestTexture);
+    if (!made) return made.error();
+    air = std::make_shared<const GlAir>(std::move(*made));
+  }
+  GlScene scene(asset, options, TransferOnGpu::Residence::Stream, std::move(air));
   scene.transfer_.setLight(light);
   if (options.sunShare) {
     scene.transfer_.setSunShare(options.sunShare);

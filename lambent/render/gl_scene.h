@@ -2,7 +2,10 @@
 // drawn together.
 #pragma once
 
+#include <memory>
+
 #include "lambent/asset/asset.h"
+#include "lambent/render/gl_air.h"
 #include "lambent/render/gl_base_colors.h"
 #include "lambent/render/gl_environment.h"
 #include "lambent/render/gl_objects.h"
@@ -23,6 +26,7 @@ struct GlSceneOptions {
   int largestTexture = 0;        ///< side, in texels
   shade::Showing showing;
   std::optional<sh::RgbCoefficients> sunShare;  ///< of makeLit's light, of a sharp Sun
+  std::optional<shade::Air> air;                ///< before all that makeLit() made
 };
 
 class GlScene {
@@ -57,13 +61,13 @@ class GlScene {
 
  private:
   GlScene(const asset::Asset& asset, const GlSceneOptions& options,
-          TransferOnGpu::Residence residence)
+          TransferOnGpu::Residence residence, std::shared_ptr<const GlAir> air)
       : asset_(&asset),
         options_(options),
         transfer_(options.largestBlock, residence),
         colors_(asset.scene),
-        surfaces_(asset, options.largestBlock),
-        patches_(asset, {options.largestBlock, options.largestTexture}, options.showing),
+        surfaces_(asset, options.largestBlock, air),
+        patches_(asset, {options.largestBlock, options.largestTexture, air}, options.showing),
         bounds_(scene::bounds(asset.scene)) {}
   Status addAll();
   Status retransfer(const shade::Showing& showing);

@@ -107,8 +107,9 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
       kind == SurfaceKind::Vertices && groups > 0 && 4 * (groups + 4) <= mostVaryings;
   std::string defines = fmt::format(
       "#define LAMBENT_KIND {}\n#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
-      "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_MAP 1\n#define LAMBENT_EACH_GROUP(DO)",
-      int(kind), groups, interpolated);
+      "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_MAP 1\n#define LAMBENT_AIR {:d}\n"
+      "#define LAMBENT_EACH_GROUP(DO)",
+      int(kind), groups, interpolated, air_ != nullptr);
   for (int i = 0; i < groups; ++i) defines += fmt::format(" DO({})", i);
   Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {defines}};
   const auto include = [&](std::string_view name) {
@@ -120,6 +121,7 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
   }
   if (kind == SurfaceKind::Mirror) fragment.parts.push_back(environmentSource());
   if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
+  if (air_) fragment.parts.push_back(airSource());
   for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
                            "texel_receivers.glsl", "corner_weights.glsl", "surface.frag.glsl"})
     include(name);
@@ -289,6 +291,7 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
       program.set("sunCanHide", int(hidden));
       if (hidden) sunMap->bind(program);
     }
+    if (air_) air_->bind(program);
     colors.bind(program, draw.mesh);
     if (draw.kind == SurfaceKind::Mirror) environment.bind(program, view.environmentFromWorld);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "lambent/asset/asset.h"
 #include "lambent/render/batches.h"
+#include "lambent/render/gl_air.h"
 #include "lambent/render/gl_base_colors.h"
 #include "lambent/render/gl_environment.h"
 #include "lambent/render/gl_objects.h"
@@ -23,8 +25,9 @@ namespace lambent::render {
 class GlSurfaces {
  public:
   /// `asset` must outlive it, and fit together (asset::faultOf).
-  GlSurfaces(const asset::Asset& asset, std::size_t largestBlock)
-      : asset_(&asset), largestBlock_(largestBlock) {}
+  /// `air`: between them and the eye; null for none.
+  GlSurfaces(const asset::Asset& asset, std::size_t largestBlock, std::shared_ptr<const GlAir> air)
+      : asset_(&asset), largestBlock_(largestBlock), air_(std::move(air)) {}
 
   /// Uploads a mesh without meso-structure, lit as `showing` says.
   Status add(std::uint32_t mesh, const shade::Showing& showing, TransferOnGpu& transfer);
@@ -101,6 +104,7 @@ class GlSurfaces {
 
   const asset::Asset* asset_;
   std::size_t largestBlock_;  ///< bytes of one storage buffer
+  std::shared_ptr<const GlAir> air_;
   std::vector<Geometry> geometries_;
   std::vector<Lit> lit_;
   std::vector<Draw> draws_;

@@ -73,6 +73,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   sceneOptions.largestTexture = limits.largestTexture;
   sceneOptions.showing = options.showing;
   if (options.sun) sceneOptions.sunShare = options.sun->share;
+  sceneOptions.air = options.air;
   Result<GlScene> scene = GlScene::makeLit(asset, light, sceneOptions);
   if (!scene) return scene.error();
   GlEnvironment inMirrors;
@@ -87,7 +88,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
 }
 
 Status Renderer::drawFrame(const scene::Camera& camera) {
-  if (Status s = shade::checkCamera(camera); !s) return s;
+  if (Status s = shade::checkCamera(camera, impl_->options); !s) return s;
   const std::vector<light::SunPoint> sun = impl_->sunPoints(1);
   const auto drawn = impl_->draw(camera, Vec2(0.5f, 0.5f), sun.empty() ? nullptr : &sun[0]);
   if (!drawn) return drawn.error();
@@ -96,7 +97,7 @@ Status Renderer::drawFrame(const scene::Camera& camera) {
 }
 
 Result<image::Image> Renderer::picture(const scene::Camera& camera, const Progress& progress) {
-  if (Status s = shade::checkCamera(camera); !s) return s.error();
+  if (Status s = shade::checkCamera(camera, impl_->options); !s) return s.error();
   const std::vector<Vec2> places = scene::subpixelPositions(impl_->options.samples);
   const std::vector<light::SunPoint> sun = impl_->sunPoints(impl_->options.samples);
   impl_->target.clearSum();

@@ -26,6 +26,15 @@ Status checkCamera(const scene::Camera& camera) {
   return Status::ok();
 }
 
+Status checkCamera(const scene::Camera& camera, const PictureOptions& options) {
+  if (options.air && camera.orthographicHalfHeight)
+    return report::badUsage(fmt::format(
+        "camera '{}' is orthographic: what it sees has no distance, and so no air before "
+        "it. Take a perspective one",
+        camera.name));
+  return checkCamera(camera);
+}
+
 Status checkOptions(const PictureOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > kLargestSide ||
       options.height > kLargestSide)
@@ -38,6 +47,9 @@ Status checkOptions(const PictureOptions& options) {
       !(*options.showing.lobeExponent >= 0.0f && *options.showing.lobeExponent < 1e6f))
     return report::badUsage(
         fmt::format("a lobe exponent of {}: 0 to 1e6 can be", *options.showing.lobeExponent));
+  if (options.air && !(options.air->metresPerUnit > 0 && std::isfinite(options.air->metresPerUnit)))
+    return report::badUsage(fmt::format("{} m in a unit of the scene: it must be positive",
+                                        options.air->metresPerUnit));
   return Status::ok();
 }
 
@@ -46,7 +58,7 @@ Status checkPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
   if (Status s = checkOptions(options); !s) return s;
   if (light.bands < 1 || light.values.size() != 3u * sh::coefficientCount(light.bands))
     return report::badInput("a light without bands, or with too few numbers for them");
-  if (Status s = checkCamera(camera); !s) return s;
+  if (Status s = checkCamera(camera, options); !s) return s;
 
   if (const auto wrong = asset::faultOf(asset)) return report::badInput(*wrong + kRemedy);
   const bool seen = std::any_of(asset.scene.meshes.begin(), asset.scene.meshes.end(),

@@ -12,7 +12,11 @@ namespace lambent::shade {
 /// Whether a camera's matrix is a placement in space.
 Status checkCamera(const scene::Camera& camera);
 
-/// Whether size, samples and lobe are in range.
+/// The same, and whether this camera can look through the air of the options, if there is any: what an
+/// orthographic one sees has no distance.
+Status checkCamera(const scene::Camera& camera, const PictureOptions& options);
+
+/// Whether size, samples, lobe and air are in range.
 Status checkOptions(const PictureOptions& options);
 
 /// Whether the asset fits together (asset::faultOf) and holds what is to be shown, and light,

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "lambent/shade/air.h"
 #include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 
@@ -19,6 +20,8 @@ struct PictureOptions {
   Showing showing;          ///< what the asset does not hold is BadUsage
   /// A Sun in the light, in the asset's frame, whose shadows on diffuse surfaces are to be sharp.
   std::optional<SharpSun> sun;
+  /// Between a perspective camera and what it sees.
+  std::optional<Air> air;
 };
 
 }  // namespace lambent::shade

@@ -14,6 +14,8 @@ Result<Light> cubeMap(const Term& term, const SourceOptions& options);
 Result<Light> angularMap(const Term& term, const SourceOptions& options);
 Result<Light> mirrorBall(const Term& term, const SourceOptions& options);
 Result<Light> skyLight(const Term& term, const SourceOptions& options);
+/// Its request, resolved.
+Result<WithFindings<sky::ResolvedSky>> resolvedTerm(const Term& term);
 
 /// The file among the keys of a sky, if one of them names one.
 std::optional<std::string_view> atmosphereOf(std::string_view rest);

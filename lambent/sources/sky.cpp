@@ -22,11 +22,17 @@ Error ofTerm(const Term& term, const Error& error) {
 
 }  // namespace
 
-Result<Light> skyLight(const Term& term, const SourceOptions& options) {
+Result<WithFindings<sky::ResolvedSky>> resolvedTerm(const Term& term) {
   const auto request = sky::parseRequest(term.rest.value_or(""));
   if (!request) return ofTerm(term, request.error());
   auto resolved = sky::resolve(*request);
   if (!resolved) return ofTerm(term, resolved.error());
+  return resolved;
+}
+
+Result<Light> skyLight(const Term& term, const SourceOptions& options) {
+  auto resolved = resolvedTerm(term);
+  if (!resolved) return resolved.error();
   resolved->value.options.cache = sky::cacheFolder();
   auto made = sky::makeSky(resolved->value.options, options.progress);
   if (!made) return ofTerm(term, made.error());

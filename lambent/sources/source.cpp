@@ -57,12 +57,15 @@ std::string formsInWords() {
   return text + ", and several joined by '+' add up";
 }
 
+/// A term that begins with the word of its kind.
+Term termOf(std::string_view text, const SourceKind& kind) {
+  Term term{text, {}};
+  if (text.size() > kind.word.size()) term.rest = text.substr(kind.word.size() + 1);
+  return term;
+}
+
 Result<Light> makeTerm(std::string_view text, const SourceOptions& options) {
-  if (const SourceKind* kind = kindOf(text)) {
-    Term term{text, {}};
-    if (text.size() > kind->word.size()) term.rest = text.substr(kind->word.size() + 1);
-    return kind->make(term, options);
-  }
+  if (const SourceKind* kind = kindOf(text)) return kind->make(termOf(text, *kind), options);
   if (std::optional<Result<Light>> light = lightFromFile(text, options)) return std::move(*light);
   return badUsage(fmt::format("light '{}': neither a kind of light nor a file that can be one. {}",
                               text, formsInWords()));
@@ -133,6 +136,22 @@ Result<Light> parseSource(std::string_view text, const SourceOptions& options) {
     sum->findings.insert(sum->findings.end(), light->findings.begin(), light->findings.end());
   }
   return std::move(*sum);
+}
+
+Result<WithFindings<sky::ResolvedSky>> resolvedSky(std::string_view text) {
+  std::optional<Term> sky;
+  for (const std::string_view term : sourceTerms(text)) {
+    const SourceKind* kind = kindOf(term);
+    if (!kind || kind->make != skyLight) continue;
+    if (sky)
+      return badUsage(fmt::format("light '{}': '{}' and '{}' are two skies, but there is one air",
+                                  text, sky->text, term));
+    sky = termOf(term, *kind);
+  }
+  if (!sky)
+    return badUsage(fmt::format(
+        "light '{}' has no sky, and so no air: a term sky:KEY=VALUE,… says which", text));
+  return resolvedTerm(*sky);
 }
 
 std::vector<std::filesystem::path> filesOf(std::string_view term) {

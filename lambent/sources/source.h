@@ -14,6 +14,7 @@
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
+#include "lambent/sky/sky_request.h"
 
 namespace lambent::sources {
 
@@ -40,6 +41,10 @@ struct SourceOptions {
 /// an image become 0 ("light-pixels-negative").
 Result<WithFindings<light::Environment>> parseSource(std::string_view text,
                                                      const SourceOptions& options = {});
+
+/// The sky of a SOURCE, without what makes light of it: for its air. BadUsage: no term of it is a sky,
+/// or more than one is; and as parseSource().
+Result<WithFindings<sky::ResolvedSky>> resolvedSky(std::string_view text);
 
 /// What a SOURCE is the sum of, in its sequence. A '+' in the name of a file that is there does not
 /// divide.

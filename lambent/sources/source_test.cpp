@@ -136,6 +136,23 @@ TEST_F(Source, Skies) {
   }
 }
 
+TEST_F(Source, TheSkyOfASum) {
+  const auto sky = resolvedSky("uniform:2+sky:sun-elevation=30,altitude=1e+3+disc:1,2,3");
+  ASSERT_TRUE(sky) << sky.error().message;
+  EXPECT_NEAR(sky->value.options.sunElevation, kPi / 6, 1e-12);
+  EXPECT_EQ(sky->value.options.altitude, 1000);
+  const auto expectNone = [](const std::string& text, const std::string& says) {
+    const auto none = resolvedSky(text);
+    ASSERT_FALSE(none) << text;
+    EXPECT_EQ(none.error().kind, ErrorKind::BadUsage);
+    EXPECT_NE(none.error().message.find(says), std::string::npos) << none.error().message;
+  };
+  expectNone("uniform+disc:1,2,3", "no sky");
+  expectNone("", "no sky");
+  expectNone("sky:sun-elevation=3+sky:sun-elevation=4", "two skies");
+  expectNone("sky:sunelevation=30", "did you mean sun-elevation?");
+}
+
 TEST_F(Source, TermsOfSkies) {
   using Terms = std::vector<std::string_view>;
   const std::string odd = write("a+b,c.json", "{}");

@@ -3,7 +3,8 @@
 //
 // Before this text stand: #define LAMBENT_FILTER 0 or 1, and what these want: incident.glsl,
 // corner_weights.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl, rtt_look_up.glsl,
-// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl.
+// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; LAMBENT_AIR 1, with what air_table.glsl
+// says, or 0.
 
 struct Vertex {
   vec4 positionU;
@@ -48,9 +49,7 @@ uvec4 rttWords(int first, int texel) { return texelFetch(rtt, first + texel); }
 ivec2 idMapSize() { return textureSize(idMap, 0); }
 uvec2 idMapTexel(ivec2 texel) { return texelFetch(idMap, texel, 0).rg; }
 
-void main() {
-  radiance = vec4(0.0, 0.0, 0.0, 1.0);
-  if (!gl_FrontFacing) return;
+vec3 litRadiance() {
 #if !LAMBENT_INTERPOLATED
   ivec3 corner = ivec3(corners[3 * gl_PrimitiveID], corners[3 * gl_PrimitiveID + 1],
                        corners[3 * gl_PrimitiveID + 2]);
@@ -74,8 +73,16 @@ void main() {
     x = frame[0] * periodsPerMetre.x;
     y = frame[1] * periodsPerMetre.y;
   }
-  radiance.rgb = averaged(q, frame, toViewer, pixelWidth.x * distance + pixelWidth.y, x, y);
+  return averaged(q, frame, toViewer, pixelWidth.x * distance + pixelWidth.y, x, y);
 #else
-  radiance.rgb = nearest(q);
+  return nearest(q);
 #endif
+}
+
+void main() {
+  vec3 sent = gl_FrontFacing ? litRadiance() : vec3(0.0);
+#if LAMBENT_AIR
+  sent = seenThroughAir(position - eye.xyz, sent);
+#endif
+  radiance = vec4(sent, 1.0);
 }

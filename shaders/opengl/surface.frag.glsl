@@ -4,7 +4,8 @@
 // 3 black; LAMBENT_GROUPS, LAMBENT_INTERPOLATED and LAMBENT_EACH_GROUP as in surface.vert.glsl and,
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, base_color_map.glsl, shading_normal.glsl, texel_receivers.glsl,
-// corner_weights.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl, environment_maps.glsl.
+// corner_weights.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl, environment_maps.glsl;
+// LAMBENT_AIR 1, with what air_table.glsl says, or 0.
 
 struct Vertex {
   vec4 positionU;
@@ -130,5 +131,9 @@ void main() {
 #if LAMBENT_KIND == 1
   if (!chooseTexels()) discard;
 #endif
-  radiance = vec4(gl_FrontFacing ? litRadiance() : vec3(0.0), 1.0);
+  vec3 sent = gl_FrontFacing ? litRadiance() : vec3(0.0);
+#if LAMBENT_AIR
+  sent = seenThroughAir(position - eye.xyz, sent);
+#endif
+  radiance = vec4(sent, 1.0);
 }

@@ -37,6 +37,7 @@ class Numbers(ToolTest):
         (RENDER, "--rotate-y", -1e6, 1e6),
         (RENDER, "--lobe", 0, 1e5),
         (RENDER, "--exposure", -60, 60),
+        ((*RENDER, "--air"), "--metres-per-unit", 1e-6, 1e6),
         (REFERENCE, "--rotate-y", -1e6, 1e6),
         (REFERENCE, "--lobe", 0, 1e5),
         (REFERENCE, "--exposure", -60, 60),

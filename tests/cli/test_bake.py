@@ -283,6 +283,21 @@ class Pictures(ToolTest):
                           "--backend", backend, "--exposure", 0)
         self.run_tool("compare", "cpu.png", "gl.png", "--fail-above", "rmse=0.01")
 
+    def test_air_of_the_lights_sky(self):
+        self.bake("ball.obj", "ball.glb", "--albedo", "0.8,0.6,0.4")
+        picture = ("render", "ball.glb", *self.SIZE, "--light")
+        sky = "sky:sun-elevation=30,model=preetham"
+        for backend in ("gl", "cpu"):
+            self.run_tool(*picture, sky, "-o", backend + ".exr", "--backend", backend, "--air",
+                          "--metres-per-unit", 3000)
+        self.run_tool("compare", "cpu.exr", "gl.exr", "--fail-above", "relative_rmse=0.01")
+        self.run_tool(*picture, sky, "-o", "none.exr", "--backend", "cpu")
+        self.assertGreater(self.run_json("compare", "none.exr", "cpu.exr")["relative_rmse"], 0.05)
+        self.refused(*picture, "uniform", "--air", "-o", "a.png", code=USAGE,
+                     says=["--air", "'uniform'", "no sky"])
+        self.refused(*picture, sky, "--metres-per-unit", 2, "-o", "a.png", code=USAGE,
+                     says=["--air"])
+
     def test_render_against_the_path_traced_truth(self):
         self.bake("ball.obj", "ball.glb", "--directions", 4096, "--encoding", "float32")
         self.run_tool("render", "ball.glb", *self.LIGHT, *self.SIZE, "-o", "ours.exr",

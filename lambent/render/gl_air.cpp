@@ -1,0 +1,79 @@
+#include "lambent/render/gl_air.h"
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "lambent/render/shader_sources.h"
+#include "lambent/sky/aerial_table.h"
+
+namespace lambent::render {
+namespace {
+
+constexpr GLuint kAirUnit = 5;  ///< of textures, as in air_table.glsl
+constexpr int kAirSources = 3;
+
+/// As phase_function.glsl takes them.
+struct PhaseUniform {
+  Eigen::Vector4d operator()(const media::Isotropic&) const { return {0, 0, 0, 0}; }
+  Eigen::Vector4d operator()(const media::RayleighPhase&) const { return {1, 0, 0, 0}; }
+  Eigen::Vector4d operator()(const media::HenyeyGreenstein& p) const { return {2, p.g, 0, 0}; }
+  Eigen::Vector4d operator()(const media::CornetteShanks& p) const { return {3, p.g, 0, 0}; }
+  Eigen::Vector4d operator()(const media::DoubleHenyeyGreenstein& p) const {
+    return {4, p.f, p.g1, p.g2};
+  }
+  Eigen::Vector4d operator()(const media::Schlick& p) const { return {5, p.k, 0, 0}; }
+};
+
+}  // namespace
+
+std::string airSource() {
+  std::string text;
+  for (const char* name : {"phase_function.glsl", "aerial_perspective.glsl", "air_table.glsl"})
+    text += shaderSource(name);
+  return text;
+}
+
+Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
+  const sky::AirTable& table = *air.table;
+  const sky::AirTableSize& size = table.size();
+  const int width = kAirSources * size.azimuths + 1, height = size.distances * size.elevations;
+  if (width > largestTexture || height > largestTexture)
+    return report::failed(fmt::format(
+        "a table of the air of {}×{} texels, but this OpenGL takes {} a side. Make it smaller, or "
+        "make the picture on the CPU",
+        width, height, largestTexture));
+  GlAir made(air);
+  made.table_ = makeTexture(GL_RGB32F, width, height);
+  const std::size_t along = std::size_t(size.azimuths) * 3, row = std::size_t(width) * 3;
+  std::vector<float> texels(row * std::size_t(height));
+  for (std::size_t y = 0; y < std::size_t(height); ++y) {
+    float* to = texels.data() + y * row;
+    for (const auto source : {sky::AirTable::Air, sky::AirTable::Aerosol, sky::AirTable::Multiple})
+      to = std::copy_n(table.source(source).data() + y * along, along, to);
+    std::copy_n(table.extinction().data() + y * 3, 3, to);
+  }
+  glTextureSubImage2D(made.table_.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, texels.data());
+  if (Status s = checkGl("uploading the air"); !s) return s.error();
+  return made;
+}
+
+void GlAir::bind(const Program& program) const {
+  const sky::AirTable& table = *air_.table;
+  const sky::AirTableAxes& axes = table.axes();
+  program.set("airNodes", table.size().azimuths, table.size().elevations, table.size().distances);
+  program.set("airShell", float(axes.radius), float(axes.height), float(axes.altitude),
+              float(axes.horizon));
+  program.set("airScale", table.scale());
+  const Vec3 sun = table.sun().cast<float>();
+  program.set("towardsSun", sun.x(), sun.y(), sun.z());
+  const Eigen::Vector4f phase = std::visit(PhaseUniform{}, table.aerosolPhase()).cast<float>();
+  program.set("aerosolPhase", phase[0], phase[1], phase[2], phase[3]);
+  program.setMatrix("sunFromWorld", Mat3(air_.sunFromAsset.cast<float>()));
+  program.set("metresPerUnit", float(air_.metresPerUnit));
+  glBindTextureUnit(kAirUnit, table_.name());
+}
+
+}  // namespace lambent::render
