@@ -12,9 +12,11 @@ const std::string_view kScriptHelp =
   environment SOURCE         a light, and wait
   state FILE                 a saved state, and wait
   drop FILE…                 files, as if dropped on the window, and wait
+  sky KEY VALUE              of the sky that lights it, as the panel's sliders do, and wait: any key of
+                             SOURCE sky:…, as time 05:40, turbidity 4, model preetham
   set NAME VALUE             exposure EV | tone filmic|linear | window none|hann:W|lanczos:W|minimal |
                              transfer best|unshadowed|shadowed|interreflected | lobe EXPONENT|own |
-                             samples N | macro, view-dependence, background, unlit, panel on|off
+                             samples N | macro, view-dependence, background, unlit, panel, expose-sky on|off
   orbit AZIMUTH ELEVATION    walk around, in degrees
   pan X Y | zoom FACTOR | frame    X and Y in heights of the picture; FACTOR of the distance
   turn object|environment AXIS DEGREES     AXIS is x, y, z or X,Y,Z
@@ -53,6 +55,7 @@ constexpr Form kForms[] = {
     {"environment", 1, 1, "environment SOURCE"},
     {"state", 1, 1, "state FILE"},
     {"drop", 1, kAny, "drop FILE…"},
+    {"sky", 2, 2, "sky KEY VALUE"},
     {"set", 2, 2, "set NAME VALUE"},
     {"orbit", 2, 2, "orbit AZIMUTH ELEVATION"},
     {"pan", 2, 2, "pan X Y"},

@@ -199,13 +199,24 @@ Result<ScriptRunner::Step> ScriptRunner::runFile(const ScriptCommand& command, S
   return session.busy() ? Step::Again : Step::Done;
 }
 
+Result<ScriptRunner::Step> ScriptRunner::runSky(const ScriptCommand& command, Session& session) {
+  if (!begun_) {
+    sky::SkyRequest request = session.sky().value_or(firstSky());
+    if (Status s = change(request, command.words[1], command.words[2]); !s)
+      return badInput(s.error().message);
+    session.showSky(request);
+  }
+  return session.busy() ? Step::Again : Step::Done;
+}
+
 Status ScriptRunner::set(const std::string& name, const std::string& value, Scene& scene) {
   view::ViewState& state = scene.session.state;
   const std::pair<const char*, bool*> switches[] = {{"macro", &state.macro},
                                                     {"view-dependence", &state.viewDependent},
                                                     {"background", &state.background},
                                                     {"unlit", &scene.session.stage.unlit},
-                                                    {"panel", &scene.session.desk.panel}};
+                                                    {"panel", &scene.session.desk.panel},
+                                                    {"expose-sky", &scene.session.desk.exposeSky}};
   for (const auto& [each, target] : switches) {
     if (name != each) continue;
     const Result<bool> on = onOff(value);
@@ -276,6 +287,7 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
 
   if (name == "load" || name == "environment" || name == "state" || name == "drop")
     return runFile(command, scene);
+  if (name == "sky") return runSky(command, session);
   if (name == "set") return done(set(word(1), word(2), scene));
   if (name == "frame") session.frameAll(scene.layout.picture);
   if (name == "orbit" || name == "pan" || name == "zoom" || name == "move") {
