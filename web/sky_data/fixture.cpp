@@ -8,6 +8,7 @@
 
 #include "lambent/radiometry/spectra.h"
 #include "lambent/sky/make_sky.h"
+#include "lambent/sky/sight.h"
 #include "lambent/sky/sky_light.h"
 #include "lambent/sky/sky_request.h"
 
@@ -48,10 +49,6 @@ std::string triple(const Three& value) {
   return fmt::format("[{:.5g},{:.5g},{:.5g}]", value[0], value[1], value[2]);
 }
 
-Eigen::Array3d rgb(const radiometry::Xyzv& xyzv) {
-  return radiometry::linearRgbOf(xyzv).max(0);
-}
-
 }  // namespace
 
 Result<std::string> skyFixture() {
@@ -81,10 +78,10 @@ Result<std::string> skyFixture() {
         "{}\n{{\"model\":\"{}\",\"turbidity\":{},\"sunElevation\":{},\"sun\":{},\"ground\":{},"
         "\"radiance\":[",
         first ? "" : ",", each.model, each.turbidity, each.sunElevation,
-        triple(rgb(sky.sun.irradiance)), triple(rgb(sky.ground)));
+        triple(sky::radianceRgb(sky.sun.irradiance)), triple(sky::radianceRgb(sky.ground)));
     first = false;
     for (std::size_t i = 0; i < towards.size(); ++i)
-      json += (i ? "," : "") + triple(rgb(sky.dome->color(towards[i])));
+      json += (i ? "," : "") + triple(sky::radianceRgb(sky.dome->color(towards[i])));
     json += "],\"coefficients\":[";
     const sh::RgbCoefficients c = sky::environmentOf(sky, resolved->value.worldFromSun).project(5);
     for (std::size_t i = 0; i < 25; ++i)

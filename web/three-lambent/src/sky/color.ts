@@ -33,7 +33,20 @@ export function rgbOfXyz(x: number, y: number, z: number, out: number[] | Triple
   return out as Triple;
 }
 
-/** The same with channels below 0 made 0: what is shown. */
+/**
+ * What is shown: a colour out of the gamut moves towards the grey of its luminance until no channel is
+ * below 0, in place. As lambent/sky/sight.cpp.
+ */
+export function withinGamut(rgb: Triple): Triple {
+  const least = Math.min(rgb[0], rgb[1], rgb[2]);
+  if (!(least < 0)) return rgb;
+  const grey = Math.max(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 0);
+  const share = grey / (grey - least);
+  for (let c = 0; c < 3; ++c) rgb[c] = Math.max(0, grey + share * (rgb[c] - grey));
+  return rgb;
+}
+
+/** {@link rgbOfXyz} within the gamut. */
 export function shownRgb(x: number, y: number, z: number): Triple {
-  return rgbOfXyz(x, y, z).map((value) => Math.max(0, value)) as Triple;
+  return withinGamut(rgbOfXyz(x, y, z));
 }

@@ -4,6 +4,7 @@ import { DataTexture, FloatType, NearestFilter, RGBAFormat } from "three";
 import { evaluateHarmonics, kMaxBands } from "../sh/basis.js";
 import { gaussLegendre } from "../sh/quadrature.js";
 import { HarmonicRotation } from "../sh/rotation.js";
+import { withinGamut } from "./color.js";
 import { domeAzimuth, kDomeColumns, kDomeRows, type DomeGrid } from "./grids.js";
 
 const kCount = kMaxBands * kMaxBands;
@@ -74,7 +75,7 @@ export function projectDome(grid: DomeGrid, bearing: number): Float64Array {
   return out;
 }
 
-/** For EnvironmentSky: channels below 0 are 0. */
+/** For EnvironmentSky, within the gamut. */
 export function domeTexture(grid: DomeGrid): DataTexture {
   const width = 2 * kDomeColumns;
   const data = new Float32Array(4 * width * kDomeRows);
@@ -83,7 +84,7 @@ export function domeTexture(grid: DomeGrid): DataTexture {
       const column = x < kDomeColumns ? kDomeColumns - 1 - x : x - kDomeColumns;
       const from = 3 * (r * kDomeColumns + column);
       const to = 4 * (r * width + x);
-      for (let c = 0; c < 3; ++c) data[to + c] = Math.max(0, grid[from + c]);
+      data.set(withinGamut([grid[from], grid[from + 1], grid[from + 2]]), to);
       data[to + 3] = 1;
     }
   const texture = new DataTexture(data, width, kDomeRows, RGBAFormat, FloatType);

@@ -1,8 +1,8 @@
 // A sky by day and in twilight as a light and as an environment: dome, Sun, ground. As
 // lambent/sky/make_sky.cpp and sky_light.cpp.
 //
-// This work is based on neckel2005analytical: the Sun's limb darkening, here one coefficient a
-// channel with the paper's mean over the disc.
+// This work is based on hestroffer1998wavelength: the Sun's limb darkening, here one coefficient a
+// channel with the same mean over the disc.
 
 import type { DataTexture } from "three";
 import { LambentLight, type DirectionLike, type Disc, type Rgb } from "../light/light.js";
@@ -75,19 +75,10 @@ function horizontalShareOfDisc(elevation: number): number {
   return kSunRadius * (x * discAbove(x) + (2 / (3 * Math.PI)) * rest * Math.sqrt(rest));
 }
 
-/** u of 1 − u (1 − μ) for light of 610, 550 and 465 nm. */
+/** u of 1 − u (1 − μ) for light of 610, 550 and 465 nm, whose mean over the disc is that of μ^α. */
 const limbDarkening = [0.61, 0.55, 0.465].map((micrometres) => {
-  const a = 1 / micrometres;
-  const b = a ** 5;
-  const polynomial = [
-    0.75267 - 0.265577 * a,
-    0.93874 + 0.265577 * a - 0.004095 * b,
-    -1.89287 + 0.012582 * b,
-    2.42234 - 0.017117 * b,
-    -1.7115 + 0.011977 * b,
-    0.49062 - 0.003347 * b,
-  ];
-  return 3 * (1 - polynomial.reduce((mean, c, k) => mean + (2 * c) / (k + 2), 0));
+  const exponent = -0.023 + 0.292 / micrometres;
+  return (3 * exponent) / (exponent + 2);
 }) as [number, number, number];
 
 /** ∫ s·axis of a disc whose centre has the radiance 1. */
