@@ -14,6 +14,7 @@ const std::string_view kScriptHelp =
   drop FILE…                 files, as if dropped on the window, and wait
   set NAME VALUE             exposure EV | tone filmic|linear | window none|hann:W|lanczos:W|minimal |
                              transfer best|unshadowed|shadowed|interreflected | lobe EXPONENT|own |
+                             sun-shadow sharp|soft |
                              samples N | macro, view-dependence, background, unlit, panel on|off
   orbit AZIMUTH ELEVATION    walk around, in degrees
   pan X Y | zoom FACTOR | frame    X and Y in heights of the picture; FACTOR of the distance
