@@ -156,6 +156,10 @@ void Panels::drawAsset(Session& session) {
     if (!offered && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
       ImGui::SetTooltip("%s", why);
   };
+  bool sharp = state.sunShadow == shade::SunShadow::Sharp;
+  switchFor("sharp Sun", &sharp, can.sharpSun,
+            "The asset holds direct light and bounces as one (lambent bake --keep-shadowed)");
+  state.sunShadow = sharp ? shade::SunShadow::Sharp : shade::SunShadow::Soft;
   const char* noMeso = "Only for assets with meso-structure (lambent synthesize)";
   switchFor("macro", &state.macro, can.mesoStructure, noMeso);
   ImGui::SameLine();

@@ -16,6 +16,7 @@ const std::string_view kScriptHelp =
                              SOURCE sky:…, as time 05:40, turbidity 4, model preetham
   set NAME VALUE             exposure EV | tone filmic|linear | window none|hann:W|lanczos:W|minimal |
                              transfer best|unshadowed|shadowed|interreflected | lobe EXPONENT|own |
+                             sun-shadow sharp|soft |
                              samples N | macro, view-dependence, background, unlit, panel, expose-sky on|off
   orbit AZIMUTH ELEVATION    walk around, in degrees
   pan X Y | zoom FACTOR | frame    X and Y in heights of the picture; FACTOR of the distance

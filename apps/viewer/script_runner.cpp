@@ -231,6 +231,13 @@ Status ScriptRunner::set(const std::string& name, const std::string& value, Scen
     state.tone = value == "filmic" ? Tone::Filmic : Tone::Linear;
     return Status::ok();
   }
+  if (name == "sun-shadow") {
+    if (value != "sharp" && value != "soft")
+      return badInput(fmt::format("'{}' is neither sharp nor soft", value));
+    using Shadow = shade::SunShadow;
+    state.sunShadow = value == "sharp" ? Shadow::Sharp : Shadow::Soft;
+    return Status::ok();
+  }
   if (name == "window") {
     if (const auto windowing = light::parseWindowing(value); !windowing)
       return badInput(windowing.error().message);
