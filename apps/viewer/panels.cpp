@@ -188,7 +188,7 @@ void Panels::drawPicture(Session& session) {
   view::ViewState& state = session.state;
   leaveRoom();
   float exposure = float(state.exposure);
-  if (ImGui::SliderFloat("exposure", &exposure, -12.0f, 24.0f, "%+.2f EV"))
+  if (ImGui::SliderFloat("exposure", &exposure, -12.0f, 30.0f, "%+.2f EV"))
     state.exposure = std::round(double(exposure) * 100.0) / 100.0;
   const bool filmic = state.tone == tone::Curve::Filmic;
   if (ImGui::BeginCombo("tone", filmic ? "filmic" : "linear")) {

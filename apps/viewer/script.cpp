@@ -25,6 +25,7 @@ const std::string_view kScriptHelp =
   disc AZIMUTH ELEVATION DIAMETER RADIANCE     a disc of light, in degrees; RADIANCE N or R,G,B
   remove-disc N              the N-th, from 1
   animate object|environment on|off     1 degree a frame
+  drag sky KEY VALUE         as `sky`, without waiting for it: what is shown stays until it is made
   drag orbit|pan|environment|object|move X Y     what the mouse does, in heights of the picture
   wheel NOTCHES X Y          over a point of the picture, from its middle
   key KEY                    as on the keyboard: F, Shift+E, Ctrl+S, Left, ?
@@ -67,7 +68,7 @@ constexpr Form kForms[] = {
     {"disc", 4, 4, "disc AZIMUTH ELEVATION DIAMETER RADIANCE"},
     {"remove-disc", 1, 1, "remove-disc N"},
     {"animate", 2, 2, "animate object|environment on|off"},
-    {"drag", 3, 3, "drag orbit|pan|environment|object|move X Y"},
+    {"drag", 3, 3, "drag orbit|pan|environment|object|move X Y, or drag sky KEY VALUE"},
     {"wheel", 3, 3, "wheel NOTCHES X Y"},
     {"key", 1, 1, "key KEY"},
     {"resize", 1, 1, "resize WIDTHxHEIGHT"},

@@ -112,7 +112,7 @@ Result<Gesture> gestureOf(const ScriptCommand& command) {
   for (const auto& [name, kind] : kKinds)
     if (command.words[1] == name)
       return Gesture{kind, Vec2(float((*given)[0]), float((*given)[1])), Vec2::Zero(), 0.0f};
-  return badInput(fmt::format("'{}' is not dragged: orbit, pan, environment, object or move",
+  return badInput(fmt::format("'{}' is not dragged: orbit, pan, environment, object, move or sky",
                               command.words[1]));
 }
 
@@ -202,9 +202,11 @@ Result<ScriptRunner::Step> ScriptRunner::runFile(const ScriptCommand& command, S
 Result<ScriptRunner::Step> ScriptRunner::runSky(const ScriptCommand& command, Session& session) {
   if (!begun_) {
     sky::SkyRequest request = session.sky().value_or(firstSky());
-    if (Status s = change(request, command.words[1], command.words[2]); !s)
+    const std::size_t last = command.words.size() - 1;
+    if (Status s = change(request, command.words[last - 1], command.words[last]); !s)
       return badInput(s.error().message);
     session.showSky(request);
+    if (command.words[0] == "drag") return Step::DoneAfterFrame;
   }
   return session.busy() ? Step::Again : Step::Done;
 }
@@ -294,7 +296,7 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
 
   if (name == "load" || name == "environment" || name == "state" || name == "drop")
     return runFile(command, scene);
-  if (name == "sky") return runSky(command, session);
+  if (name == "sky" || (name == "drag" && word(1) == "sky")) return runSky(command, session);
   if (name == "set") return done(set(word(1), word(2), scene));
   if (name == "frame") session.frameAll(scene.layout.picture);
   if (name == "orbit" || name == "pan" || name == "zoom" || name == "move") {

@@ -158,7 +158,7 @@ double exposureFor(const light::Environment& environment) {
   // The first harmonic is 1/√(4π): its coefficient is √(4π) times the mean.
   const double mean =
       double(radiometry::luminance(Rgb(light[0], light[1], light[2]))) / std::sqrt(4 * kPi);
-  return mean > 0 ? std::clamp(std::log2(0.5 / mean), -24.0, 24.0) : 0.0;
+  return mean > 0 ? std::clamp(std::log2(0.5 / mean), -30.0, 30.0) : 0.0;
 }
 
 }  // namespace lambent::viewer

@@ -138,7 +138,7 @@ Answer chooseAir(sky::SkyRequest& request, bool live) {
   };
   Answer answer = of(request.turbidity, 2.5, "turbidity", 1, 10,
                      request.turbidity ? "%.1f" : "as the air has it", 0.1);
-  answer = stronger(answer, of(request.albedo, 0.2, "ground", 0, 1,
+  answer = stronger(answer, of(request.albedo, 0.2, "albedo", 0, 1,
                                request.albedo ? "%.2f" : "as the air has it", 0.01));
   answer = stronger(answer, slide("altitude", request.altitude, 0, 10000, "%.0f m", 10, live));
   return answer;
