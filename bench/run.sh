@@ -20,7 +20,7 @@ for program in "$build"/bench/lambent_*_bench; do
   printf '\n== %s\n' "$name"
   if [ "$name" = bake_bench ] || [ "$name" = bi_scale_bench ] || [ "$name" = live_bench ]; then
     "$program" "$results/$name.csv" build/inputs
-  elif [ "$name" = capture_bench ] || [ "$name" = air_bench ]; then
+  elif [ "$name" = capture_bench ] || [ "$name" = sky_bench ] || [ "$name" = air_bench ]; then
     "$program" "$results/$name.csv"
   else
     "$program" --benchmark_out="$results/$name.csv" --benchmark_out_format=csv

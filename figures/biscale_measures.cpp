@@ -10,6 +10,7 @@
 #include "lambent/meso/generators.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/tone/compare.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::figures {
 

@@ -21,7 +21,7 @@ namespace {
 using Lights = std::vector<sh::RgbCoefficients>;
 
 /// A warm lamp close to one end of the object and a cool one close to the other, under a dim sky.
-struct Stage {
+struct LampStage {
   asset::Asset asset;
   capture::MovingScene lamps;
   light::Environment sky;
@@ -34,24 +34,24 @@ capture::Body lamp(const char* name, const Vec3& place, float radius, const Rgb&
   return body;
 }
 
-Stage stage(const Studio& studio) {
+LampStage stage(const Studio& studio) {
   const scene::Scene bunny = madeOf(studio.load("bunny.obj"), diffuseMaterial(Rgb::Constant(0.8f)));
   const scene::Box box = scene::bounds(bunny);
   const float r = 0.5f * box.diagonal();
   macro::BakeOptions options;
   options.kind = transfer::Kind::Shadowed;
   options.directions = studio.directions();
-  Stage result{bake(bunny, options).asset,
-               {},
-               light::Environment::uniform(Rgb::Constant(0.1f)),
-               lookAt(box.center() + r * Vec3(0.15f, 0.25f, 2.9f), box.center(), 38)};
+  LampStage result{bake(bunny, options).asset,
+                   {},
+                   light::Environment::uniform(Rgb::Constant(0.1f)),
+                   lookAt(box.center() + r * Vec3(0.15f, 0.25f, 2.9f), box.center(), 38)};
   result.lamps.bodies = {
       lamp("warm", box.center() + r * Vec3(-0.95f, 0.4f, 0.5f), 0.13f * r, Rgb(48, 20, 5)),
       lamp("cool", box.center() + r * Vec3(0.95f, -0.1f, 0.55f), 0.13f * r, Rgb(5, 18, 46))};
   return result;
 }
 
-Lights captured(const Stage& stage, const std::vector<Vec3>& points) {
+Lights captured(const LampStage& stage, const std::vector<Vec3>& points) {
   render::LightCapture capture = orDie(render::LightCapture::make(stage.lamps, points));
   const Status done = capture.capture(0, Mat4::Identity(), stage.sky.project(5));
   if (!done) die(done.error().message);
@@ -73,7 +73,7 @@ std::vector<Rgb> relit(const asset::Asset& asset, const capture::Blending& blend
 }
 
 /// A picture of mesh 0 with that radiance at its vertices, and of other bodies that are `radiant`.
-image::Image show(const Studio& studio, const Stage& stage, const std::vector<Rgb>& radiance,
+image::Image show(const Studio& studio, const LampStage& stage, const std::vector<Rgb>& radiance,
                   const std::vector<capture::Body>& radiant) {
   asset::Asset asset;
   asset.transfer.bands = 1;
@@ -104,7 +104,7 @@ image::Image show(const Studio& studio, const Stage& stage, const std::vector<Rg
 }
 
 /// Light of each sample in a colour of its own, and the samples as balls.
-image::Image showSamples(const Studio& studio, const Stage& stage,
+image::Image showSamples(const Studio& studio, const LampStage& stage,
                          const capture::Blending& blending) {
   const Rgb colors[] = {{0.9f, 0.2f, 0.15f}, {0.1f, 0.55f, 0.9f}, {0.95f, 0.75f, 0.1f},
                         {0.2f, 0.7f, 0.3f},  {0.6f, 0.3f, 0.8f},  {0.1f, 0.75f, 0.75f},
@@ -122,13 +122,13 @@ image::Image showSamples(const Studio& studio, const Stage& stage,
 }
 
 /// Vertices drawn at random and what the path tracer says about them.
-struct Truth {
+struct LampTruth {
   std::vector<std::uint32_t> vertices;
   std::vector<Vec3> positions;
   std::vector<reference::Estimate> estimates;
 };
 
-scene::Scene withLamps(const Stage& stage) {
+scene::Scene withLamps(const LampStage& stage) {
   scene::Scene scene = stage.asset.scene;
   const scene::Scene lamps = capture::frozen(stage.lamps, 0);
   for (const scene::Mesh& mesh : lamps.meshes)
@@ -136,9 +136,9 @@ scene::Scene withLamps(const Stage& stage) {
   return scene;
 }
 
-Truth truth(const Studio& studio, const Stage& stage) {
+LampTruth truth(const Studio& studio, const LampStage& stage) {
   const scene::Scene scene = withLamps(stage);
-  Truth result;
+  LampTruth result;
   math::Random random(5, 0);
   std::vector<reference::Probe> probes;
   for (int k = 0; k < (studio.quick ? 500 : 3000); ++k) {
@@ -168,8 +168,8 @@ double relative(const std::vector<Rgb>& ours, const std::vector<Rgb>& theirs, do
 
 void captureFigure5(const Studio& studio) {
   const render::GlContext context = orDie(render::GlContext::create());
-  const Stage set = stage(studio);
-  const Truth exact = truth(studio, set);
+  const LampStage set = stage(studio);
+  const LampTruth exact = truth(studio, set);
   std::vector<Rgb> expected;
   double noise = 0;
   for (const reference::Estimate& e : exact.estimates)
@@ -183,7 +183,10 @@ void captureFigure5(const Studio& studio) {
   // What 5 bands can do at all: light captured at every one of the vertices themselves.
   const Lights own = captured(set, exact.positions);
   std::vector<Rgb> local;
-  const shade::DiffuseShader shader(set.asset.transfer.meshes[0]);
+  const auto& surface =
+      std::get<transfer::Surface<transfer::Numbers>>(set.asset.transfer.meshes[0]);
+  const shade::DiffuseShader shader(
+      surface.responses.find(set.asset.transfer.kind)->diffuse->vectors);
   std::vector<float> everywhere(3 * shader.receiverCount());
   for (std::size_t k = 0; k < own.size(); ++k) {
     shader.shade(own[k], everywhere);

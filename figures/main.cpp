@@ -1,22 +1,42 @@
 // Makes the pictures and tables of docs/reproduction.md.
 //
-// usage: lambent_figures INPUTS OUTPUT [--quick] [NAME …]
+// usage: lambent_figures INPUTS OUTPUT [--quick] [--suns 60,94,…] [NAME …]
 //   NAME: figure3 figure9 figure10 figure11 figure12 table1 diffuse-accuracy glossy-accuracy
 //         biscale-truth biscale-resolution biscale-figure1 biscale-figure3 biscale-figure4
 //         biscale-figure5 biscale-figure6 biscale-vase biscale-filter biscale-encodings
-//         biscale-rtt-methods capture-projection capture-figure5
+//         biscale-rtt-methods capture-projection capture-figure5 sky-meridian sky-accuracy
+//         sky-optical-lengths sky-chromaticity sky-compact sky-preetham sky-aerial sky-24-hours
+//         sun-shadow
+//   --suns: the Sun's zenith angles, degrees, of sky-accuracy; an exact sky takes minutes.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "figures/accuracy.h"
 #include "figures/biscale.h"
 #include "figures/capture.h"
 #include "figures/pictures.h"
+#include "figures/sky.h"
+#include "figures/sun_shadow.h"
+
+namespace {
+
+/// "60,94": what is no number counts 0.
+std::vector<double> numbersOf(const std::string& list) {
+  std::vector<double> numbers;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');)
+    numbers.push_back(std::strtod(word.c_str(), nullptr));
+  return numbers;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace lambent::figures;
@@ -41,20 +61,34 @@ int main(int argc, char** argv) {
       {"biscale-encodings", biscaleEncodings},
       {"biscale-rtt-methods", biscaleRttMethods},
       {"capture-projection", captureProjection},
-      {"capture-figure5", captureFigure5}};
+      {"capture-figure5", captureFigure5},
+      {"sky-meridian", skyMeridian},
+      {"sky-accuracy", skyAccuracy},
+      {"sky-optical-lengths", skyOpticalLengths},
+      {"sky-chromaticity", skyChromaticity},
+      {"sky-compact", skyCompact},
+      {"sky-preetham", skyPreetham},
+      {"sky-aerial", skyAerial},
+      {"sky-24-hours", sky24Hours},
+      {"sun-shadow", sunShadow}};
   Studio studio;
   std::vector<std::string> words(argv + 1, argv + argc), wanted;
   std::vector<std::string> places;
+  bool sunsFollow = false;
   for (const std::string& word : words) {
     if (word == "--quick")
       studio.quick = true;
+    else if (word == "--suns")
+      sunsFollow = true;
+    else if (sunsFollow)
+      studio.suns = numbersOf(word), sunsFollow = false;
     else if (places.size() < 2)
       places.push_back(word);
     else
       wanted.push_back(word);
   }
   if (places.size() < 2) {
-    fmt::print(stderr, "usage: lambent_figures INPUTS OUTPUT [--quick] [NAME ...]\n");
+    fmt::print(stderr, "usage: lambent_figures INPUTS OUTPUT [--quick] [--suns LIST] [NAME ...]\n");
     return 2;
   }
   studio.inputs = places[0], studio.output = places[1];

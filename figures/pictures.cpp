@@ -12,6 +12,7 @@
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/window.h"
 #include "lambent/shade/shade.h"
+#include "lambent/shade/transfer_matrices.h"
 
 namespace lambent::figures {
 

@@ -10,6 +10,7 @@
 #include "lambent/meso/generators.h"
 #include "lambent/render/gl_picture.h"
 #include "lambent/sh/window.h"
+#include "lambent/transfer/encode.h"
 
 namespace lambent::figures {
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lambent/asset/asset.h"
 #include "lambent/light/environment.h"
@@ -26,9 +27,10 @@ T orDie(Result<T> result) {
 }
 
 struct Studio {
-  std::filesystem::path inputs;  ///< bunny.obj, hdri/, dragon/, teapot.obj
-  std::filesystem::path output;  ///< where pictures go
-  bool quick = false;            ///< fewer directions, paths and pixels, to try a figure out
+  std::filesystem::path inputs;         ///< bunny.obj, hdri/, dragon/, teapot.obj
+  std::filesystem::path output;         ///< where pictures go
+  bool quick = false;                   ///< fewer directions, paths and pixels, to try a figure out
+  std::vector<double> suns = {60, 94};  ///< zenith angles of sky-accuracy, degrees
 
   /// RTTs that one figure built and another may want, by the patch's name.
   std::shared_ptr<std::map<std::string, transfer::SimulatedRtt>> rtts =

@@ -2,17 +2,18 @@
 // bilinear between the four texels around.
 //
 // Each texel is compared with the depth that the plane of the surface's own triangle has at the
-// texel's middle, so that a plane never hides itself, however low the Sun; what other triangles of a
-// curved surface reach beyond that plane within a texel is allowed for by lifting the place along the
-// triangle's normal by sunLift texels times the sine between normal and Sun. A triangle that faces away
-// from the Sun does not see it, whatever its shading normal says: so rays have it too.
+// texel's middle, so that a plane never hides itself, however low the Sun; but with the place's own
+// where that is nearer to the Sun, for what lies behind a place does not hide it. What other triangles
+// of a curved surface reach beyond that plane within a texel is allowed for by lifting the place along
+// the triangle's normal by kSunLift texels times the sine between normal and Sun. A triangle that faces
+// away from the Sun does not see it, whatever its shading normal says: so rays have it too.
 //
 // After this text: the function that reads the map.
 
 uniform mat4 sunMapFromWorld;     // to texels, and depth 0 … 1, growing away from the Sun
 uniform mat3 sunFrameFromWorld;   // rows: along the map's x and y, and towards the Sun
 uniform vec4 sunMapScales;        // width and height in texels; a texel, metres; depth, metres
-const float kSunLift = 0.5;       // texels
+const float kSunLift = 0.25;       // texels
 const float kSunLeastCosine = 0.01;
 
 float sunMapDepth(ivec2 texel);
@@ -30,7 +31,7 @@ float sunSeen(vec3 position, vec3 front) {
   vec4 seen;
   for (int k = 0; k < 4; ++k) {
     vec2 tap = low + vec2(k & 1, k >> 1);
-    float plane = at.z + dot(slope, tap - cell);
+    float plane = at.z + min(0.0, dot(slope, tap - cell));
     ivec2 texelAt = clamp(ivec2(tap), ivec2(0), ivec2(sunMapScales.xy) - 1);
     seen[k] = plane <= sunMapDepth(texelAt) ? 1.0 : 0.0;
   }

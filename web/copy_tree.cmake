@@ -1,5 +1,5 @@
 # Copies what npm works on to TO, laid out as in the repository. Called with -DFROM= -DTO=.
-foreach(folder IN ITEMS shaders web/three-lambent/src web/three-lambent/scripts web/viewer/src
+foreach(folder IN ITEMS shaders web/three-lambent/data web/three-lambent/src web/three-lambent/scripts web/viewer/src
         web/viewer/public)
   file(REMOVE_RECURSE ${TO}/${folder})
   get_filename_component(parent ${TO}/${folder} DIRECTORY)

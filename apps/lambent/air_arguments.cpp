@@ -22,6 +22,12 @@ void AirArguments::addTo(CLI::App& app) {
       ->capture_default_str()
       ->needs(air)
       ->group("Air");
+  app.add_flag(
+         "--shafts", shafts,
+         "Shafts of light, for --air: what throws a sharp shadow of the Sun throws it into the "
+         "air as well")
+      ->needs(air)
+      ->group("Air");
 }
 
 Result<shade::Air> AirArguments::make(const std::string& source, const Mat3d& assetFromSource,
@@ -38,6 +44,7 @@ Result<shade::Air> AirArguments::make(const std::string& source, const Mat3d& as
   result.table = std::make_shared<const sky::AirTable>(std::get<sky::AirTable>(std::move(*air)));
   result.sunFromAsset = (assetFromSource * resolved->value.worldFromSun).transpose();
   result.metresPerUnit = metresPerUnit;
+  if (shafts) result.shafts = shade::Shafts{};
   return result;
 }
 

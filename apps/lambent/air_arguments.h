@@ -15,8 +15,9 @@ namespace lambent::tool {
 struct AirArguments {
   bool wanted = false;
   double metresPerUnit = 1;
+  bool shafts = false;
 
-  /// --air, --metres-per-unit.
+  /// --air, --metres-per-unit, --shafts.
   void addTo(CLI::App& app);
   /// The air of the sky in a SOURCE whose light was turned by `assetFromSource`.
   Result<shade::Air> make(const std::string& source, const Mat3d& assetFromSource,

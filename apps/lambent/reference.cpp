@@ -151,7 +151,7 @@ Result<Shot> shotOf(const ReferenceRequest& arguments, const std::optional<view:
       if (!chosen) return chosen.error();
       camera = *chosen;
     }
-    shot = Shot{*environment, light, camera, {}};
+    shot = Shot{*environment, light, camera};
   }
   if (arguments.bands > 0) shot->environment = light::Environment::harmonics(shot->light);
   return shot;

@@ -174,6 +174,7 @@ Status runRender(RenderRequest arguments, Console& console) {
        {"exposure", ev},
        {"sun_shadow", !options.sun ? nlohmann::json() : nlohmann::json("sharp")},
        {"metres_per_unit", options.air ? nlohmann::json(options.air->metresPerUnit) : nullptr},
+       {"shafts", options.air && options.air->shafts},
        {"seconds", seconds},
        {"picture", describe(*picture).json}},
       fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", arguments.output.string(),

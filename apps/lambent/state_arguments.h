@@ -32,9 +32,9 @@ struct Shot {
   light::Environment environment;
   sh::RgbCoefficients light;  ///< windowed
   scene::Camera camera;
-  std::optional<shade::SharpSun> sun;  ///< where its shadows are to be sharp
-  std::string source;                  ///< what the environment was made of
-  Mat3d assetFromEnvironment;          ///< how it was turned after that
+  std::optional<shade::SharpSun> sun = {};         ///< where its shadows are to be sharp
+  std::string source = {};                         ///< what the environment was made of
+  Mat3d assetFromEnvironment = Mat3d::Identity();  ///< how it was turned after that
 };
 
 struct ShotOptions {

@@ -46,6 +46,8 @@ Examples:
       Draws the picture, saves it and ends.
   lambent view bunny.glb sky.exr --web
       The same in a browser on this machine; nothing outside it can see the page.
+  lambent view bunny.glb sky:date=2026-06-21,time=19:30,utc-offset=2,lat=46.2,lon=6.1
+      Under that sky; its model, moment, place and air are in the panel's section Sky.
   lambent view bunny.glb --surroundings demo
       Lamps and a bar go about it, and light it from near: light is captured at 8 of its points.
   xvfb-run -a lambent view bunny.glb --script tour.txt

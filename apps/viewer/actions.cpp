@@ -41,6 +41,15 @@ void turnEnvironment(Session& session, const PixelSize& picture, int column, dou
                           steps * kStep);
 }
 
+/// By so many minutes, within the day.
+void shiftTime(Session& session, int minutes) {
+  if (!session.sky() || !byMoment(*session.sky()))
+    return session.notices.remark("there is no sky of a moment: the panel's Sky makes one");
+  sky::SkyRequest request = *session.sky();
+  setMinute(request, minuteOf(request) + minutes);
+  session.showSky(request);
+}
+
 void choose(Session& session, Choice choice, bool offered, std::string_view name) {
   if (offered)
     session.state.transfer = choice;
@@ -116,6 +125,12 @@ std::vector<Action> makeActions() {
        light,
        "what moves around the object stands still, or goes on",
        [](S s, P) { s.desk.moveSurroundings = !s.desk.moveSurroundings; }},
+      {",",
+       {GLFW_KEY_COMMA, 0},
+       light,
+       "the sky of five minutes before",
+       [](S s, P) { shiftTime(s, -5); }},
+      {".", {GLFW_KEY_PERIOD, 0}, light, "… and after", [](S s, P) { shiftTime(s, 5); }},
       {"D",
        {GLFW_KEY_D, 0},
        light,

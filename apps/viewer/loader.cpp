@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 
+#include "apps/viewer/sky_control.h"
+#include "lambent/sky/make_sky.h"
+#include "lambent/sky/sky_light.h"
 #include "lambent/sources/source.h"
 
 namespace lambent::viewer {
@@ -16,14 +20,29 @@ std::string lowerExtension(const std::filesystem::path& path) {
   return extension;
 }
 
-Result<Loaded> readEnvironment(const std::string& source, const asset::ReadOptions& reading,
-                               const std::stop_token& stop) {
-  auto parsed = sources::parseSource(
-      source, {.notFinite = sources::SourceOptions::NotFinite::Repair,
-               .memoryLimit = reading.memoryLimit,
-               .progress = [&](const ProgressUpdate&) { return !stop.stop_requested(); }});
+Result<LoadedEnvironment> readEnvironment(const std::string& source,
+                                          const asset::ReadOptions& reading,
+                                          const Progress& progress) {
+  auto parsed =
+      sources::parseSource(source, {.notFinite = sources::SourceOptions::NotFinite::Repair,
+                                    .memoryLimit = reading.memoryLimit,
+                                    .progress = progress});
   if (!parsed) return parsed.error();
-  return Loaded(LoadedEnvironment{source, std::move(parsed->value), std::move(parsed->findings)});
+  return LoadedEnvironment{source, std::move(parsed->value), std::move(parsed->findings)};
+}
+
+/// The same as of the SOURCE `sky:…`, with a maker that stays.
+Result<LoadedEnvironment> makeSky(const std::string& source, const sky::SkyRequest& request,
+                                  sky::SkyMaker& maker, const Progress& progress) {
+  auto resolved = sky::resolve(request);
+  if (!resolved) return resolved.error();
+  resolved->value.options.cache = sky::cacheFolder();
+  auto made = maker.make(resolved->value.options, progress);
+  if (!made) return made.error();
+  LoadedEnvironment loaded{source, sky::environmentOf(made->value, resolved->value.worldFromSun),
+                           std::move(resolved->findings)};
+  loaded.findings.insert(loaded.findings.end(), made->findings.begin(), made->findings.end());
+  return loaded;
 }
 
 }  // namespace
@@ -61,17 +80,37 @@ void Loader::allow(const asset::ReadOptions& reading) {
 
 void Loader::readAsset(std::filesystem::path path) {
   const std::lock_guard lock(mutex_);
-  requests_.push_back({true, path.string()});
+  requests_.push_back({Request::What::Asset, path.string()});
   woken_.notify_one();
 }
 
 void Loader::readEnvironment(std::string source) {
   const std::lock_guard lock(mutex_);
-  requests_.push_back({false, std::move(source)});
+  requests_.push_back({Request::What::Environment, std::move(source)});
   woken_.notify_one();
 }
 
+void Loader::readSky(std::string source) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(requests_, [](const Request& each) { return each.what == Request::What::Sky; });
+  requests_.push_back({Request::What::Sky, std::move(source)});
+  woken_.notify_one();
+}
+
+bool Loader::goesOn(const Request& request, const ProgressUpdate& update) {
+  const std::lock_guard lock(mutex_);
+  share_ =
+      update.total > 0 ? std::optional(double(update.done) / double(update.total)) : std::nullopt;
+  if (request.what != Request::What::Sky) return true;
+  const auto mine = skyOf(request.name);
+  return std::none_of(requests_.begin(), requests_.end(), [&](const Request& each) {
+    const auto next = each.what == Request::What::Sky ? skyOf(each.name) : std::nullopt;
+    return next && mine && (mine->model == sky::Model::Exact || !sameAir(*mine, *next));
+  });
+}
+
 void Loader::work(std::stop_token stop) {
+  sky::SkyMaker skies;
   for (;;) {
     Request request;
     asset::ReadOptions reading;
@@ -81,16 +120,24 @@ void Loader::work(std::stop_token stop) {
       request = requests_.front();
       requests_.pop_front();
       current_ = request;
+      share_.reset();
       reading = reading_;
       began_ = std::chrono::steady_clock::now();
     }
     Result<Loaded> result = report::failed("");
+    const Progress progress = [&](const ProgressUpdate& update) {
+      return !stop.stop_requested() && goesOn(request, update);
+    };
     try {
-      if (request.asset) {
+      if (request.what == Request::What::Asset) {
         auto asset = viewer::readAsset(request.name, reading);
         result = asset ? Result<Loaded>(Loaded(std::move(*asset))) : Result<Loaded>(asset.error());
       } else {
-        result = viewer::readEnvironment(request.name, reading, stop);
+        const auto sky = skyOf(request.name);
+        auto light = sky ? viewer::makeSky(request.name, *sky, skies, progress)
+                         : viewer::readEnvironment(request.name, reading, progress);
+        if (light) light->underTheHand = request.what == Request::What::Sky;
+        result = light ? Result<Loaded>(Loaded(std::move(*light))) : Result<Loaded>(light.error());
       }
     } catch (const std::bad_alloc&) {
       result = report::failed(fmt::format("{}: not enough memory to read it", request.name));
@@ -98,7 +145,10 @@ void Loader::work(std::stop_token stop) {
       result = report::failed(fmt::format("{}: {}", request.name, e.what()));
     }
     const std::lock_guard lock(mutex_);
-    results_.push_back(std::move(result));
+    // Of a sky that was given up for another nobody hears.
+    const bool givenUp = request.what == Request::What::Sky && !result &&
+                         result.error().kind == ErrorKind::Cancelled;
+    if (!givenUp) results_.push_back(std::move(result));
     current_.reset();
   }
 }
@@ -118,7 +168,14 @@ bool Loader::busy() const {
 
 std::string Loader::reading() const {
   const std::lock_guard lock(mutex_);
-  return current_ ? std::filesystem::path(current_->name).filename().string() : std::string();
+  if (!current_) return {};
+  if (skyOf(current_->name)) return "the air of this sky";
+  return std::filesystem::path(current_->name).filename().string();
+}
+
+std::optional<double> Loader::share() const {
+  const std::lock_guard lock(mutex_);
+  return current_ ? share_ : std::nullopt;
 }
 
 double Loader::seconds() const {

@@ -15,6 +15,7 @@
 #include "lambent/asset/read.h"
 #include "lambent/light/environment.h"
 #include "lambent/report/finding.h"
+#include "lambent/report/progress.h"
 #include "lambent/report/result.h"
 
 namespace lambent::viewer {
@@ -28,6 +29,7 @@ struct LoadedEnvironment {
   std::string source;
   light::Environment environment;
   Findings findings;
+  bool underTheHand = false;  ///< asked for by readSky()
 };
 
 using Loaded = std::variant<LoadedAsset, LoadedEnvironment>;
@@ -42,6 +44,10 @@ class Loader {
   void allow(const asset::ReadOptions& reading);
   void readAsset(std::filesystem::path path);
   void readEnvironment(std::string source);
+  /// A SOURCE that is one sky, as it changes under the hand: of those that wait only the last is
+  /// made, and a table that is being made for another air is given up. Skies share one maker: one
+  /// of the same air as the last takes milliseconds.
+  void readSky(std::string source);
 
   /// What has been read meanwhile, or what was wrong with it.
   std::optional<Result<Loaded>> take();
@@ -49,19 +55,24 @@ class Loader {
   /// "bunny.glb", what is being read, and for how long; empty if nothing is.
   std::string reading() const;
   double seconds() const;
+  /// How much of the stage under way is done, 0 … 1, where it tells.
+  std::optional<double> share() const;
 
  private:
   struct Request {
-    bool asset = false;
+    enum class What { Asset, Environment, Sky };
+    What what = What::Asset;
     std::string name;
   };
   void work(std::stop_token stop);
+  bool goesOn(const Request& request, const ProgressUpdate& update);
 
   mutable std::mutex mutex_;
   std::condition_variable_any woken_;
   asset::ReadOptions reading_;
   std::deque<Request> requests_;
   std::optional<Request> current_;
+  std::optional<double> share_;
   std::chrono::steady_clock::time_point began_;
   std::deque<Result<Loaded>> results_;
   std::jthread thread_;  // last: it ends before what it uses goes

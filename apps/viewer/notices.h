@@ -17,6 +17,15 @@ class Notices {
     if (!status) problem(status.error());
     return bool(status);
   }
+  /// Unless it is being shown.
+  void remarkOnce(const std::string& text) {
+    for (Remark& each : remarks_)
+      if (each.text == text) {
+        each.left = kShown;
+        return;
+      }
+    remark(text);
+  }
   void remark(std::string text) { remarks_.push_back({std::move(text), kShown}); }
 
   /// The oldest problem that nobody has put away yet.

@@ -83,10 +83,14 @@ void drawRemarks(const Session& session, const Layout& layout) {
   const float scale = layout.scale;
   std::string text;
   const std::string reading = session.loader().reading();
-  if (!reading.empty())
+  // A sky that follows the hand is there before anybody could read of it.
+  const bool brief = session.sky() && session.loader().seconds() < 0.3;
+  if (!reading.empty() && !brief)
     text = session.loader().seconds() > 1.0
                ? fmt::format("reading {} … {:.0f} s", reading, session.loader().seconds())
                : fmt::format("reading {} …", reading);
+  if (const auto share = session.loader().share(); share && !text.empty())
+    text += fmt::format(" {:.0f}%", 100 * *share);
   for (const Notices::Remark& remark : session.notices.remarks())
     text += (text.empty() ? "" : "\n") + remark.text;
   if (!text.empty()) {

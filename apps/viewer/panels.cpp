@@ -56,6 +56,7 @@ void Panels::draw(Session& session, const FrameTimes& times, const Layout& layou
     ImGui::BeginChild("controls", {0, -foot});
     drawFiles(session, layout.picture);
     if (section("Picture")) drawPicture(session);
+    if (section("Sky")) drawSky(session);
     if (section("Light")) drawLight(session);
     if (session.stage.hasSurroundings() && section("Around it")) drawSurroundings(session);
     if (section("Transfer")) drawAsset(session);
@@ -155,6 +156,10 @@ void Panels::drawAsset(Session& session) {
     if (!offered && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
       ImGui::SetTooltip("%s", why);
   };
+  bool sharp = state.sunShadow == shade::SunShadow::Sharp;
+  switchFor("sharp Sun", &sharp, can.sharpSun,
+            "The asset holds direct light and bounces as one (lambent bake --keep-shadowed)");
+  state.sunShadow = sharp ? shade::SunShadow::Sharp : shade::SunShadow::Soft;
   const char* noMeso = "Only for assets with meso-structure (lambent synthesize)";
   switchFor("macro", &state.macro, can.mesoStructure, noMeso);
   ImGui::SameLine();
@@ -183,7 +188,7 @@ void Panels::drawPicture(Session& session) {
   view::ViewState& state = session.state;
   leaveRoom();
   float exposure = float(state.exposure);
-  if (ImGui::SliderFloat("exposure", &exposure, -8.0f, 8.0f, "%+.2f EV"))
+  if (ImGui::SliderFloat("exposure", &exposure, -12.0f, 30.0f, "%+.2f EV"))
     state.exposure = std::round(double(exposure) * 100.0) / 100.0;
   const bool filmic = state.tone == tone::Curve::Filmic;
   if (ImGui::BeginCombo("tone", filmic ? "filmic" : "linear")) {

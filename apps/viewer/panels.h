@@ -31,6 +31,7 @@ class Panels {
 
 // What needs no memory of its own.
 void drawDiscs(Session& session, SkyMap& sky);
+void drawSky(Session& session);
 void drawTransfer(Session& session);
 void drawSurroundings(Session& session);
 void drawHelp(Session& session, const Layout& layout);

@@ -12,9 +12,12 @@ const std::string_view kScriptHelp =
   environment SOURCE         a light, and wait
   state FILE                 a saved state, and wait
   drop FILE…                 files, as if dropped on the window, and wait
+  sky KEY VALUE              of the sky that lights it, as the panel's sliders do, and wait: any key of
+                             SOURCE sky:…, as time 05:40, turbidity 4, model preetham
   set NAME VALUE             exposure EV | tone filmic|linear | window none|hann:W|lanczos:W|minimal |
                              transfer best|unshadowed|shadowed|interreflected | lobe EXPONENT|own |
-                             samples N | macro, view-dependence, background, unlit, panel on|off
+                             sun-shadow sharp|soft |
+                             samples N | macro, view-dependence, background, unlit, panel, expose-sky on|off
   orbit AZIMUTH ELEVATION    walk around, in degrees
   pan X Y | zoom FACTOR | frame    X and Y in heights of the picture; FACTOR of the distance
   turn object|environment AXIS DEGREES     AXIS is x, y, z or X,Y,Z
@@ -22,6 +25,7 @@ const std::string_view kScriptHelp =
   disc AZIMUTH ELEVATION DIAMETER RADIANCE     a disc of light, in degrees; RADIANCE N or R,G,B
   remove-disc N              the N-th, from 1
   animate object|environment on|off     1 degree a frame
+  drag sky KEY VALUE         as `sky`, without waiting for it: what is shown stays until it is made
   drag orbit|pan|environment|object|move X Y     what the mouse does, in heights of the picture
   wheel NOTCHES X Y          over a point of the picture, from its middle
   key KEY                    as on the keyboard: F, Shift+E, Ctrl+S, Left, ?
@@ -53,6 +57,7 @@ constexpr Form kForms[] = {
     {"environment", 1, 1, "environment SOURCE"},
     {"state", 1, 1, "state FILE"},
     {"drop", 1, kAny, "drop FILE…"},
+    {"sky", 2, 2, "sky KEY VALUE"},
     {"set", 2, 2, "set NAME VALUE"},
     {"orbit", 2, 2, "orbit AZIMUTH ELEVATION"},
     {"pan", 2, 2, "pan X Y"},
@@ -63,7 +68,7 @@ constexpr Form kForms[] = {
     {"disc", 4, 4, "disc AZIMUTH ELEVATION DIAMETER RADIANCE"},
     {"remove-disc", 1, 1, "remove-disc N"},
     {"animate", 2, 2, "animate object|environment on|off"},
-    {"drag", 3, 3, "drag orbit|pan|environment|object|move X Y"},
+    {"drag", 3, 3, "drag orbit|pan|environment|object|move X Y, or drag sky KEY VALUE"},
     {"wheel", 3, 3, "wheel NOTCHES X Y"},
     {"key", 1, 1, "key KEY"},
     {"resize", 1, 1, "resize WIDTHxHEIGHT"},

@@ -112,7 +112,7 @@ Result<Gesture> gestureOf(const ScriptCommand& command) {
   for (const auto& [name, kind] : kKinds)
     if (command.words[1] == name)
       return Gesture{kind, Vec2(float((*given)[0]), float((*given)[1])), Vec2::Zero(), 0.0f};
-  return badInput(fmt::format("'{}' is not dragged: orbit, pan, environment, object or move",
+  return badInput(fmt::format("'{}' is not dragged: orbit, pan, environment, object, move or sky",
                               command.words[1]));
 }
 
@@ -199,13 +199,26 @@ Result<ScriptRunner::Step> ScriptRunner::runFile(const ScriptCommand& command, S
   return session.busy() ? Step::Again : Step::Done;
 }
 
+Result<ScriptRunner::Step> ScriptRunner::runSky(const ScriptCommand& command, Session& session) {
+  if (!begun_) {
+    sky::SkyRequest request = session.sky().value_or(firstSky());
+    const std::size_t last = command.words.size() - 1;
+    if (Status s = change(request, command.words[last - 1], command.words[last]); !s)
+      return badInput(s.error().message);
+    session.showSky(request);
+    if (command.words[0] == "drag") return Step::DoneAfterFrame;
+  }
+  return session.busy() ? Step::Again : Step::Done;
+}
+
 Status ScriptRunner::set(const std::string& name, const std::string& value, Scene& scene) {
   view::ViewState& state = scene.session.state;
   const std::pair<const char*, bool*> switches[] = {{"macro", &state.macro},
                                                     {"view-dependence", &state.viewDependent},
                                                     {"background", &state.background},
                                                     {"unlit", &scene.session.stage.unlit},
-                                                    {"panel", &scene.session.desk.panel}};
+                                                    {"panel", &scene.session.desk.panel},
+                                                    {"expose-sky", &scene.session.desk.exposeSky}};
   for (const auto& [each, target] : switches) {
     if (name != each) continue;
     const Result<bool> on = onOff(value);
@@ -218,6 +231,13 @@ Status ScriptRunner::set(const std::string& name, const std::string& value, Scen
       return badInput(fmt::format("'{}' is neither filmic nor linear", value));
     using Tone = tone::Curve;
     state.tone = value == "filmic" ? Tone::Filmic : Tone::Linear;
+    return Status::ok();
+  }
+  if (name == "sun-shadow") {
+    if (value != "sharp" && value != "soft")
+      return badInput(fmt::format("'{}' is neither sharp nor soft", value));
+    using Shadow = shade::SunShadow;
+    state.sunShadow = value == "sharp" ? Shadow::Sharp : Shadow::Soft;
     return Status::ok();
   }
   if (name == "window") {
@@ -276,6 +296,7 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
 
   if (name == "load" || name == "environment" || name == "state" || name == "drop")
     return runFile(command, scene);
+  if (name == "sky" || (name == "drag" && word(1) == "sky")) return runSky(command, session);
   if (name == "set") return done(set(word(1), word(2), scene));
   if (name == "frame") session.frameAll(scene.layout.picture);
   if (name == "orbit" || name == "pan" || name == "zoom" || name == "move") {

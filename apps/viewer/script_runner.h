@@ -32,6 +32,7 @@ class ScriptRunner {
   struct Scene;
   Result<Step> run(const ScriptCommand& command, Scene& scene);
   Result<Step> runFile(const ScriptCommand& command, Scene& scene);
+  Result<Step> runSky(const ScriptCommand& command, Session& session);
   Status set(const std::string& name, const std::string& value, Scene& scene);
   Status expectError(const std::string& text, Session& session) const;
 

@@ -79,6 +79,8 @@ bool Session::collect() {
     if (!*read) {
       // A state whose light cannot be had is not half shown.
       waiting_.reset();
+      sky_ = skyOf(state.environment);
+      skyRemark_.clear();
       notices.problem(read->error());
       continue;
     }
@@ -98,18 +100,44 @@ void Session::take(LoadedAsset loaded) {
   notices.remark(name);
 }
 
+void Session::showSky(const sky::SkyRequest& request) {
+  ShownSky shown = shownSky(request);
+  sky_ = request;
+  skyRemark_ = std::move(shown.remark);
+  loader_.readSky(std::move(shown.source));
+}
+
 void Session::take(LoadedEnvironment loaded) {
   for (const Finding& finding : loaded.findings)
-    if (finding.severity == Severity::Warning) notices.remark(finding.message);
+    if (finding.severity == Severity::Warning) notices.remarkOnce(finding.message);
   stage.setEnvironment(loaded.environment);
-  if (waiting_ && waiting_->environment == loaded.source) {
+  const bool isSky = skyOf(loaded.source).has_value();
+  if (!loaded.underTheHand) {
+    sky_ = skyOf(loaded.source);
+    skyRemark_.clear();
+  }
+  nameEnvironment(loaded.source, loaded.underTheHand);
+  if (!loaded.underTheHand && waiting_ && waiting_->environment == loaded.source) {
     state = *waiting_;
     waiting_.reset();
     desk.disc = -1;
+    if (isSky) desk.exposeSky = false;  // the state has an exposure of its own
+  } else if (isSky && desk.exposeSky) {
+    state.exposure = exposureFor(loaded.environment);
+  } else if (!isSky && desk.exposeSky && skyOf(state.environment)) {
+    state.exposure = 0;
   }
   state.environment = loaded.source;
-  if (std::find(environments.begin(), environments.end(), loaded.source) == environments.end())
-    environments.push_back(loaded.source);
+}
+
+/// Into the list; a sky under the hand stands there once, `instead` of what it was before.
+void Session::nameEnvironment(const std::string& source, bool instead) {
+  if (std::find(environments.begin(), environments.end(), source) != environments.end()) return;
+  const auto shown = std::find(environments.begin(), environments.end(), state.environment);
+  if (instead && shown != environments.end() && skyOf(*shown))
+    *shown = source;
+  else
+    environments.push_back(source);
 }
 
 view::LookAt& Session::hand(const PixelSize& picture) {

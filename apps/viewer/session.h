@@ -8,6 +8,7 @@
 
 #include "apps/viewer/loader.h"
 #include "apps/viewer/notices.h"
+#include "apps/viewer/sky_control.h"
 #include "apps/viewer/stage.h"
 #include "lambent/view/view_state.h"
 
@@ -19,7 +20,8 @@ struct Desk {
   bool turnEnvironment = false, turnObject = false;
   bool moveSurroundings = true;
   bool vsync = true;
-  int disc = -1;  ///< the one that is chosen, or −1
+  bool exposeSky = true;  ///< the exposure follows a sky
+  int disc = -1;          ///< the one that is chosen, or −1
   bool quit = false;
 };
 
@@ -42,6 +44,16 @@ class Session {
   /// Whatever it is: a baked .glb, an image, a LIGHT.json, a state.
   void open(const std::filesystem::path& path);
   void nextEnvironment(int step);
+
+  /// The sky that is shown, or that a person has asked for and waits for; nothing if the light is
+  /// another.
+  const std::optional<sky::SkyRequest>& sky() const { return sky_; }
+  /// What sky() is from now on, without showing it yet: a slider that is being dragged.
+  void holdSky(const sky::SkyRequest& request) { sky_ = request; }
+  /// Shows it as soon as it is made; what is shown stays until then.
+  void showSky(const sky::SkyRequest& request);
+  /// Why the sky is not the one of the moment that was asked for; empty if it is.
+  const std::string& skyRemark() const { return skyRemark_; }
 
   /// Shows what has been read since the last call. True if anything changed.
   bool collect();
@@ -68,9 +80,12 @@ class Session {
  private:
   void take(LoadedAsset loaded);
   void take(LoadedEnvironment loaded);
+  void nameEnvironment(const std::string& source, bool instead);
 
   Loader loader_;
   std::optional<view::ViewState> waiting_;  ///< a state whose environment is being read
+  std::optional<sky::SkyRequest> sky_;
+  std::string skyRemark_;
 };
 
 }  // namespace lambent::viewer

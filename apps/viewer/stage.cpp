@@ -27,6 +27,7 @@ Possibilities possibilitiesOf(const asset::Asset& asset) {
   result.shadowed = shade::offers(asset, Kind::Shadowed);
   result.interreflected = shade::offers(asset, Kind::Interreflected);
   for (const transfer::EncodedMesh& mesh : asset.transfer.meshes) {
+    if (shade::kindWithoutBounces(mesh, {})) result.sharpSun = true;
     if (std::holds_alternative<transfer::BiScale<Numbers>>(mesh)) result.mesoStructure = true;
     if (const auto* surface = std::get_if<transfer::Surface<Numbers>>(&mesh))
       surface->responses.each([&](Kind, const auto& response) {

@@ -20,6 +20,7 @@ struct Possibilities {
   bool unshadowed = false, shadowed = false, interreflected = false;
   bool mesoStructure = false;  ///< macro and view dependence mean something
   bool glossy = false;         ///< so does the exponent of lobes
+  bool sharpSun = false;       ///< so do sharp shadows of the Sun
 };
 
 class Stage {

@@ -176,6 +176,7 @@ Status view(ViewerOptions options) {
   Viewer viewer(std::move(*window));
   viewer.vsync = viewer.session.desk.vsync = windowOptions.vsync;
   viewer.session.desk.panel = options.panel;
+  viewer.session.desk.exposeSky = !options.script;  // a script sets what it wants
   if (options.surroundings)
     if (Status s = viewer.session.stage.setSurroundings(std::move(options.surroundings)); !s)
       return s;

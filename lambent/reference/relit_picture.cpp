@@ -36,11 +36,11 @@ struct LitScene {
   std::map<std::uint32_t, shade::LitPatch> patches;  ///< of meshes with meso-structure
 
   /// What falls directly from a point of a sharp Sun and is sent on by a diffuse surface.
-  Rgb sunlit(const scene::SurfacePoint& point, transfer::Kind shown,
+  Rgb sunlit(const scene::SurfacePoint& point, transfer::Kind direct,
              const light::SunPoint& sun) const {
     const float cosine = point.normal.dot(sun.direction);
     if (!(cosine > 0)) return Rgb::Zero();
-    if (shown != transfer::Kind::Unshadowed &&
+    if (direct != transfer::Kind::Unshadowed &&
         rays.occluded(point.position + rays.offset() * point.normal, sun.direction))
       return Rgb::Zero();
     return point.diffuse * sun.irradiance * (cosine / float(kPi));
@@ -71,8 +71,9 @@ struct LitScene {
     const Rgb diffuse = lit.diffuseAt(at);
     Rgb sum =
         (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) + lit.glossyAt(at, reflected) * base;
-    if (sun && !lit.diffuse.empty())
-      sum += sunlit(point, shade::kindShown(asset.transfer.meshes[hit.mesh], showing), *sun);
+    if (!sun) return sum;
+    if (const auto direct = shade::kindWithoutBounces(asset.transfer.meshes[hit.mesh], showing))
+      sum += sunlit(point, *direct, *sun);
     return sum;
   }
 };

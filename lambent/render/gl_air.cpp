@@ -48,16 +48,18 @@ Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
         "make the picture on the CPU",
         width, height, largestTexture));
   GlAir made(air);
-  made.table_ = makeTexture(GL_RGB32F, width, height);
-  const std::size_t along = std::size_t(size.azimuths) * 3, row = std::size_t(width) * 3;
+  // Of four numbers: a texel is then fetched as one.
+  made.table_ = makeTexture(GL_RGBA32F, width, height);
+  const std::size_t along = std::size_t(size.azimuths), row = std::size_t(width) * 4;
   std::vector<float> texels(row * std::size_t(height));
   for (std::size_t y = 0; y < std::size_t(height); ++y) {
     float* to = texels.data() + y * row;
     for (const auto source : {sky::AirTable::Air, sky::AirTable::Aerosol, sky::AirTable::Multiple})
-      to = std::copy_n(table.source(source).data() + y * along, along, to);
+      for (std::size_t i = 0; i < along; ++i, to += 4)
+        std::copy_n(table.source(source).data() + (y * along + i) * 3, 3, to);
     std::copy_n(table.extinction().data() + y * 3, 3, to);
   }
-  glTextureSubImage2D(made.table_.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, texels.data());
+  glTextureSubImage2D(made.table_.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
   if (Status s = checkGl("uploading the air"); !s) return s.error();
   if (air.shafts) {
     const Program::Stage stages[] = {

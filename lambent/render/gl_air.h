@@ -16,7 +16,7 @@ std::string airSource(bool shafts);
 
 class GlAir {
  public:
-  /// Uploads the table: 369 KB of one of the default size.
+  /// Uploads the table: 492 KB of one of the default size.
   static Result<GlAir> make(const shade::Air& air, int largestTexture);
   /// What programs include.
   std::string source() const { return airSource(air_.shafts.has_value()); }

@@ -38,7 +38,7 @@ Texture pictureOf(const Environment& environment, int width) {
 }
 
 /// Laid out as sampleSkylight (shaders/environment.glsl) looks it up.
-Texture skyOf(const light::Skylight& sky) {
+void uploadSky(const light::Skylight& sky, Texture& texture) {
   constexpr int kWidth = kSmoothWidth, kHeight = kSmoothWidth / 2;
   std::vector<Rgb> texels(std::size_t(kWidth) * kHeight);
   const double horizon = sky.horizon();
@@ -49,9 +49,9 @@ Texture skyOf(const light::Skylight& sky) {
       texels[std::size_t(y) * kWidth + x] = sky.radiance(
           math::directionFromAzimuthElevation(2.0 * kPi * ((x + 0.5) / kWidth - 0.5), elevation));
   });
-  Texture texture = makeTexture(GL_RGB32F, kWidth, kHeight);
+  // A sky that changes from frame to frame keeps its texture.
+  if (!texture.name()) texture = makeTexture(GL_RGB32F, kWidth, kHeight);
   glTextureSubImage2D(texture.name(), 0, 0, 0, kWidth, kHeight, GL_RGB, GL_FLOAT, texels.data());
-  return texture;
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ Status GlEnvironment::set(const Environment& environment, int largestTexture) {
     sky_ = Texture();
     skyUploaded_.reset();
   } else if (const auto& light = parts.sky->light; light != skyUploaded_) {
-    sky_ = skyOf(*light);
+    uploadSky(*light, sky_);
     skyUploaded_ = light;
   }
   parts.others.clear();

@@ -64,15 +64,15 @@ Result<GlSurfaces::Lit> GlSurfaces::lightOf(std::uint32_t mesh, const shade::Sho
   lit.mesh = mesh;
   if (response.diffuse) {
     const transfer::EncodedMesh& encoded = asset_->transfer.meshes[mesh];
-    const transfer::Kind direct = shade::kindWithoutBounces(encoded, showing);
-    const bool apart = sharpSun_ && direct != shade::kindShown(encoded, showing);
+    const auto direct = sharpSun_ ? shade::kindWithoutBounces(encoded, showing) : std::nullopt;
+    const bool apart = direct && *direct != shade::kindShown(encoded, showing);
     Result<Relit> made =
         transfer.diffuse(response.diffuse->vectors, receivers,
-                         sharpSun_ && !apart ? Relit::Light::WithoutSun : Relit::Light::Whole);
+                         direct && !apart ? Relit::Light::WithoutSun : Relit::Light::Whole);
     if (!made) return made.error();
     lit.diffuse = std::move(*made);
     if (apart) {
-      made = transfer.diffuse(surfaceOf(mesh)->responses.find(direct)->diffuse->vectors, receivers,
+      made = transfer.diffuse(surfaceOf(mesh)->responses.find(*direct)->diffuse->vectors, receivers,
                               Relit::Light::Sun);
       if (!made) return made.error();
       lit.sunShare = std::move(*made);
@@ -273,7 +273,10 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     program.set("grid", grid ? grid->width : 0, grid ? grid->height : 0);
     program.set("rows", draw.rows.begin, draw.rows.end);
     const bool lit = draw.kind == SurfaceKind::Vertices || draw.kind == SurfaceKind::Texels;
-    const bool sunlit = lit && diffuse && view.sun.has_value();
+    const auto direct = lit && view.sun
+                            ? shade::kindWithoutBounces(asset_->transfer.meshes[draw.mesh], showing)
+                            : std::nullopt;
+    const bool sunlit = direct.has_value();
     if (lit) {
       program.set("hasSunShare",
                   int(sunlit && draw.lit && lit_[*draw.lit].sunShare.product.name()));
@@ -284,8 +287,7 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
       program.set("sentFromSun", sent.x(), sent.y(), sent.z());
       program.set("sunDirection", view.sun->direction.x(), view.sun->direction.y(),
                   view.sun->direction.z());
-      const bool hidden = sunMap && shade::kindShown(asset_->transfer.meshes[draw.mesh], showing) !=
-                                        transfer::Kind::Unshadowed;
+      const bool hidden = sunMap && *direct != transfer::Kind::Unshadowed;
       program.set("sunCanHide", int(hidden));
       if (hidden) sunMap->bind(program);
     }

@@ -1,6 +1,7 @@
 #include "lambent/shade/air.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lambent/sky/aerial_table.h"
 #include "lambent/sky/shafts.h"
@@ -11,6 +12,16 @@ Rgb Air::seen(const Vec3& direction, float distance, const Rgb& radiance) const 
   const sky::AirBetween between =
       table->at(sunFromAsset * direction.cast<double>(), double(distance) * metresPerUnit);
   return between.seen(radiance.cast<double>()).cast<float>();
+}
+
+Rgb Air::seenBehind(const Vec3& direction, const Rgb& radiance) const {
+  const Vec3d inSunFrame = sunFromAsset * direction.cast<double>();
+  const double elevation = std::asin(std::clamp(inSunFrame.y(), -1.0, 1.0));
+  const sky::AirTableAxes& axes = table->axes();
+  if (axes.isAbove(elevation)) return radiance;
+  return table->at(inSunFrame, axes.toGround(elevation))
+      .seen(radiance.cast<double>())
+      .cast<float>();
 }
 
 sky::SamplingPlanes Air::planes(const scene::Camera& camera, const scene::Box& box) const {

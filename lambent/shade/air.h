@@ -23,8 +23,8 @@ struct Shafts {
 };
 
 /// The viewer of the table is the camera, wherever it stands in the scene. Surfaces are seen through
-/// the air; the background is not: it is the sky, air already; but shafts of
-/// light stand before both.
+/// the air; the sky is not: it is air already. What the background has
+/// below the horizon is the ground of the planet, and shafts of light stand before all.
 struct Air {
   std::shared_ptr<const sky::AirTable> table;  ///< never null
   /// Turns a direction of the asset's frame into the Sun's frame (see sky/dome.h).
@@ -37,6 +37,9 @@ struct Air {
   /// frame) along the unit `direction` from the eye. A channel can be negative (see
   /// sky::AirBetween).
   Rgb seen(const Vec3& direction, float distance, const Rgb& radiance) const;
+
+  /// The same of a background's `radiance`.
+  Rgb seenBehind(const Vec3& direction, const Rgb& radiance) const;
 
   /// Of the shafts: across the view of `camera`, in the Sun's frame and in m, up to the end of `box`.
   sky::SamplingPlanes planes(const scene::Camera& camera, const scene::Box& box) const;

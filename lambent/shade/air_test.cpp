@@ -45,6 +45,20 @@ TEST(Air, FarAwayIsTheSky) {
     }
 }
 
+TEST(Air, LiesBeforeTheGroundOfABackground) {
+  const Air air = test::clearAir();
+  const Rgb ground(2.0f, 1.0f, 0.5f);
+  for (const double elevation : {0.0, 0.3, 1.5})
+    EXPECT_TRUE((air.seenBehind(lookAlong(elevation, 1.0), ground) == ground).all());
+  // 50 m straight below, and 1 km away.
+  EXPECT_LT((air.seenBehind(lookAlong(-1.57, 1.0), ground) - ground).abs().maxCoeff(), 0.02f);
+  const Vec3 low = lookAlong(-0.05, 1.0);
+  EXPECT_LT((air.seenBehind(low, ground) - air.seen(low, 1002.0f, ground)).abs().maxCoeff(), 1e-2f);
+  // 25 km away, before the horizon (0.23° below eye level).
+  const Vec3 last = lookAlong(-0.00398, 1.0);
+  EXPECT_GT((air.seenBehind(last, ground) - ground).abs().maxCoeff(), 0.2f);
+}
+
 TEST(Air, KnowsUnitsAndFrames) {
   const Air metres = test::clearAir(), kilometres = test::clearAir(1000);
   const Vec3 direction = lookAlong(-0.003, 1.0);

@@ -104,8 +104,9 @@ LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
   if (!std::holds_alternative<transfer::Surface<transfer::Numbers>>(encoded)) return {};
   LitMesh lit = lightMesh(*responseUnder(asset, mesh, kindShown(encoded, showing)), light,
                           showing.lobeExponent);
-  if (!sun || lit.diffuse.empty()) return lit;
-  const auto direct = responseUnder(asset, mesh, kindWithoutBounces(encoded, showing));
+  const auto kind = sun ? kindWithoutBounces(encoded, showing) : std::nullopt;
+  if (!kind) return lit;
+  const auto direct = responseUnder(asset, mesh, *kind);
   std::vector<float> share(lit.diffuse.size());
   DiffuseShader(direct->diffuse->vectors).shade(sun->share, share);
   for (std::size_t i = 0; i < share.size(); ++i) lit.diffuse[i] -= share[i];

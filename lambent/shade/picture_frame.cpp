@@ -91,9 +91,12 @@ void finishPicture(image::Image& image, const light::Environment& environment,
       const float uncovered = 1.0f - image.alpha[at];
       if (!(uncovered > 0.0f)) continue;
       Rgb sum = Rgb::Zero();
-      for (const Vec2& p : positions)
-        sum += environment.radiance(
-            scene::cameraRay(camera, image.width, image.height, x + p.x(), y + p.y()).direction);
+      for (const Vec2& p : positions) {
+        const Vec3 direction =
+            scene::cameraRay(camera, image.width, image.height, x + p.x(), y + p.y()).direction;
+        const Rgb radiance = environment.radiance(direction);
+        sum += options.air ? options.air->seenBehind(direction, radiance) : radiance;
+      }
       image.pixels[at] += uncovered / float(positions.size()) * sum;
     }
   });

@@ -19,34 +19,40 @@ std::optional<SharpSun> sharpSunOf(const light::Environment& environment,
   return result;
 }
 
-Kind kindWithoutBounces(const EncodedMesh& mesh, const Showing& showing) {
-  const Kind shown = kindShown(mesh, showing);
+namespace {
+
+const Surface* diffuseSurface(const EncodedMesh& mesh) {
   const auto* surface = std::get_if<Surface>(&mesh);
-  return shown == Kind::Interreflected && surface && surface->responses.holds(Kind::Shadowed)
-             ? Kind::Shadowed
-             : shown;
+  const auto most = surface ? surface->responses.most() : std::nullopt;
+  return most && surface->responses.find(*most)->diffuse ? surface : nullptr;
+}
+
+}  // namespace
+
+std::optional<Kind> kindWithoutBounces(const EncodedMesh& mesh, const Showing& showing) {
+  const Surface* surface = diffuseSurface(mesh);
+  if (!surface) return std::nullopt;
+  const Kind shown = kindShown(mesh, showing);
+  if (shown != Kind::Interreflected) return shown;
+  return surface->responses.holds(Kind::Shadowed) ? std::optional(Kind::Shadowed) : std::nullopt;
 }
 
 Findings sharpSunFindings(const asset::Asset& asset, const Showing& showing) {
-  std::uint64_t unbounced = 0, soft = 0;
+  std::uint64_t together = 0, soft = 0;
   for (const EncodedMesh& mesh : asset.transfer.meshes) {
     if (std::holds_alternative<transfer::BiScale<transfer::Numbers>>(mesh)) ++soft;
+    if (diffuseSurface(mesh) && !kindWithoutBounces(mesh, showing)) ++together;
     const auto* surface = std::get_if<Surface>(&mesh);
     const auto most = surface ? surface->responses.most() : std::nullopt;
-    if (!most) continue;
-    if (surface->responses.find(*most)->glossy) ++soft;
-    if (surface->responses.find(*most)->diffuse &&
-        kindWithoutBounces(mesh, showing) == Kind::Interreflected)
-      ++unbounced;
+    if (most && surface->responses.find(*most)->glossy) ++soft;
   }
   Findings findings;
-  if (unbounced > 0)
-    findings.push_back(
-        {Severity::Warning, "sun-without-bounces",
-         "the asset holds interreflected transfer alone: under a sharp Sun the Sun's "
-         "light does not bounce. Bake it with '--keep-shadowed', or show it with "
-         "'--sun-shadow soft'",
-         unbounced});
+  if (together > 0)
+    findings.push_back({Severity::Warning, "sun-with-bounces",
+                        "the Sun's shadow stays soft: the asset holds its direct light and its "
+                        "bounces as one. Bake it with '--keep-shadowed', or show it with "
+                        "'--sun-shadow soft'",
+                        together});
   const bool mirrors = std::any_of(
       asset.scene.meshes.begin(), asset.scene.meshes.end(), [&](const scene::Mesh& mesh) {
         return asset.scene.materials[std::size_t(mesh.material)].isMirror();

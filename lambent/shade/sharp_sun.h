@@ -32,9 +32,12 @@ struct SharpSun {
 std::optional<SharpSun> sharpSunOf(const light::Environment& environment,
                                    const std::vector<double>& window);
 
-/// D of a bare surface: the shadowed transfer under what is interreflected, where it is held;
-/// otherwise what is shown. (Then the Sun's light does not bounce.)
-transfer::Kind kindWithoutBounces(const transfer::EncodedMesh& mesh, const Showing& showing);
+/// The kind of D of a bare surface with a diffuse part: the shadowed one under what is interreflected,
+/// otherwise what is shown. None where interreflected transfer is held alone, and for all other meshes:
+/// they show the Sun as the harmonics have it. (Without its bounces a picture would be further from the
+/// truth than with its soft shadow: docs/reproduction.md.)
+std::optional<transfer::Kind> kindWithoutBounces(const transfer::EncodedMesh& mesh,
+                                                 const Showing& showing);
 
 /// Where an asset cannot show all of a sharp Sun: bounces that it does not hold apart, mirrors, lobes,
 /// and meso-structure.

@@ -142,7 +142,7 @@ TEST(SharpSun, SaysWhatItCannotShow) {
   EXPECT_TRUE(sharpSunFindings(baked(scene, Kind::Shadowed, false), {}).empty());
   const Findings found = sharpSunFindings(baked(scene, Kind::Interreflected, false), {});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, "sun-without-bounces");
+  EXPECT_EQ(found[0].code, "sun-with-bounces");
   EXPECT_EQ(found[0].count, 2u);
 }
 

@@ -41,6 +41,13 @@ double AirTableAxes::elevationOf(bool above, double place) const {
   return above ? horizon + x * (kPi / 2 - horizon) : horizon - x * (kPi / 2 + horizon);
 }
 
+double AirTableAxes::toGround(double elevation) const {
+  const double b = (radius + altitude) * std::sin(elevation);
+  const double c = altitude * (2 * radius + altitude);
+  const double root = std::sqrt(std::max(b * b - c, 0.0));
+  return c / std::max(root - b, 1e-3);
+}
+
 double AirTableAxes::reach(bool above, double elevation) const {
   const double b = (radius + altitude) * std::sin(elevation);
   if (above) {
@@ -48,9 +55,7 @@ double AirTableAxes::reach(bool above, double elevation) const {
     const double root = std::sqrt(b * b + c);
     return std::max(b > 0 ? c / (root + b) : root - b, 1.0);
   }
-  const double c = altitude * (2 * radius + altitude);
-  const double root = std::sqrt(std::max(b * b - c, 0.0));
-  return std::max(c / std::max(root - b, 1e-3), kLeastReach);
+  return std::max(toGround(elevation), kLeastReach);
 }
 
 AirTable::AirTable(const Scattering& scattering, const Atmosphere& atmosphere,

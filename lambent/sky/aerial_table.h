@@ -36,6 +36,8 @@ struct AirTableAxes {
   bool isAbove(double elevation) const { return elevation >= horizon; }
   double placeOfElevation(double elevation) const;  ///< within its half: 0 is the horizon
   double elevationOf(bool above, double place) const;
+  /// Distance of a ray below the horizon to the ground, m.
+  double toGround(double elevation) const;
   /// Distance to the end of a ray, m.
   double reach(bool above, double elevation) const;
 };

@@ -44,6 +44,9 @@ Status setKey(SkyRequest& request, std::string_view key, std::string_view value)
 
 /// KEY=VALUE,KEY=VALUE,… A ',' in the name of an atmosphere's file that is there does not divide.
 Result<SkyRequest> parseRequest(std::string_view text);
+/// The same from the request: what parseRequest() reads back with every number as it was. What has
+/// its default is left out; of a request that says nothing it is empty.
+std::string toText(const SkyRequest& request);
 
 /// Where the value that begins at `at` (after its '=') ends: at the next ',' or '+', or with the
 /// text. A '+' that is a number's sign or in its exponent is part of it, and so are both in the name

@@ -193,6 +193,27 @@ TEST(SkyRequest, ValuesEndWhereTheyShould) {
   EXPECT_EQ(value("atmosphere=no-such+file,x.json,lat=1"), "no-such");
 }
 
+TEST(SkyRequest, ComesBackFromItsText) {
+  for (const std::string_view text :
+       {"date=2026-06-21,time=05:40,utc-offset=2,lat=46.2,lon=6.1", "sun-elevation=-0.1",
+        "date=1999-12-31,time=23:59:59,utc-offset=-3.5,lat=-90,lon=-179.123456789012",
+        "sun-elevation=12,sun-azimuth=-140.25,model=exact,refine=2",
+        "sun-elevation=12,model=preetham,turbidity=2.7,albedo=0",
+        "sun-elevation=12,model=perez,direct-normal=800,diffuse-horizontal=1e-07",
+        "sun-elevation=12,model=asrc-cie", "sun-elevation=12,model=cie-overcast",
+        "sun-elevation=12,model=cie-clear", "sun-elevation=12,model=cie:1",
+        "sun-elevation=12,model=cie:15",
+        "sun-elevation=12,turbidity=3,albedo=0.3,ozone=300,altitude=1500,atmosphere=hazy"}) {
+    const auto request = parseRequest(text);
+    ASSERT_TRUE(request) << request.error().message;
+    EXPECT_EQ(toText(*request), text);
+  }
+  EXPECT_EQ(toText(SkyRequest{}), "");
+  const auto usual = parseRequest("model=fast,sun-elevation=1e1,atmosphere=clear,utc-offset=0");
+  ASSERT_TRUE(usual);
+  EXPECT_EQ(toText(*usual), "sun-elevation=10");
+}
+
 class AtmosphereFiles : public testing::Test {
  protected:
   void SetUp() override {

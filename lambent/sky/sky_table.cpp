@@ -388,4 +388,30 @@ double SkyTable::horizon() const {
   return impl_->view.horizon;
 }
 
+std::vector<double> SkyTable::sunElevations() const {
+  std::vector<double> elevations;
+  for (int sun = 0; sun < impl_->suns.suns; ++sun)
+    elevations.push_back(kPi / 2 - impl_->suns.sunZenith(sun));
+  return elevations;
+}
+
+const ViewGrid& SkyTable::view() const {
+  return impl_->view;
+}
+
+std::vector<SkyTable::NodeColor> SkyTable::nodeColors(double sunElevation) const {
+  const Taps taps = impl_->sunTaps(sunElevation);
+  std::vector<NodeColor> colors;
+  for (std::size_t node = 0; node < std::size_t(impl_->view.nodes()); ++node) {
+    float logs[kHeld * kLanes] = {};
+    for (int k = 0; k < 4; ++k) {
+      const float* at = &impl_->radiance[std::size_t(taps.first + k) * impl_->perSun() +
+                                         node * std::size_t(kHeld * kLanes)];
+      for (int l = 0; l < kHeld * kLanes; ++l) logs[l] += float(taps.weight[k]) * at[l];
+    }
+    colors.push_back({impl_->color(logs), impl_->color(logs + kLanes)});
+  }
+  return colors;
+}
+
 }  // namespace lambent::sky

@@ -48,6 +48,17 @@ class SkyTable {
   double altitude() const;
   double horizon() const;  ///< its elevation, rad, ≤ 0
 
+  /// Of whoever makes something smaller of the table: where its nodes lie along the Sun's elevation
+  /// (rad, falling from π/2 to kLowestSun or just below it), in directions, and what they hold.
+  std::vector<double> sunElevations() const;
+  const ViewGrid& view() const;
+  /// X, Y, Z in cd m⁻² at every node of view(), [row][azimuth]: of all light but that which aerosols
+  /// scattered once, and of that without its phase function.
+  struct NodeColor {
+    radiometry::Xyzv rest, aerosols;
+  };
+  std::vector<NodeColor> nodeColors(double sunElevation) const;
+
   /// As bytes that begin with tableKey(), and back: nothing if they are of another length, or of
   /// another atmosphere or altitude.
   std::vector<std::byte> bytes() const;

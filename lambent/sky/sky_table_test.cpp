@@ -92,6 +92,27 @@ TEST(SkyTables, HoldTheSkyOfEveryPlaceOfTheSun) {
       EXPECT_NEAR(tabulated[i], integrated[i], 2e-3 * integrated[i / 25 * 25]) << sun << ' ' << i;
   }
 
+  // What its nodes hold makes the sky in their directions.
+  const std::vector<double> suns = table->sunElevations();
+  EXPECT_NEAR(suns.front(), kPi / 2, 1e-6);
+  EXPECT_LE(suns.back(), kLowestSun + 1e-6);
+  for (const double sun : {suns[20], -4.4 * kDegree}) {
+    const std::vector<SkyTable::NodeColor> colors = table->nodeColors(sun);
+    const ViewGrid& view = table->view();
+    ASSERT_EQ(colors.size(), std::size_t(view.nodes()));
+    const Vec3d toSun(std::cos(sun), std::sin(sun), 0);
+    for (const int row : {2, 11, 23})
+      for (const int column : {0, 7, 18}) {
+        const Vec3d s =
+            math::directionFromAzimuthElevation(view.azimuth(column), view.elevation(row));
+        const auto& [rest, aerosols] = colors[std::size_t(row * view.azimuths + column)];
+        const radiometry::Xyzv expected =
+            rest + media::evaluate(atmosphere.aerosolPhase, s.dot(toSun)) * aerosols;
+        const radiometry::Xyzv seen = table->dome(sun)->color(s);
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(seen[c] / expected[c], 1, 1e-4) << row << column;
+      }
+  }
+
   // Smooth and monotone while the Sun sets, to the end of twilight.
   const double degree = 0.1 * kDegree;
   for (const double elevation : {1.0, 30.0, 90.0}) {

@@ -295,8 +295,19 @@ class Pictures(ToolTest):
         self.assertGreater(self.run_json("compare", "none.exr", "cpu.exr")["relative_rmse"], 0.05)
         self.refused(*picture, "uniform", "--air", "-o", "a.png", code=USAGE,
                      says=["--air", "'uniform'", "no sky"])
-        self.refused(*picture, sky, "--metres-per-unit", 2, "-o", "a.png", code=USAGE,
-                     says=["--air"])
+        for option in (("--metres-per-unit", 2), ("--shafts",)):
+            self.refused(*picture, sky, *option, "-o", "a.png", code=USAGE, says=["--air"])
+
+    def test_shafts_of_light(self):
+        self.bake("ball.obj", "ball.glb", "--albedo", "0.8,0.6,0.4", "--keep-shadowed")
+        air = ("--light", "sky:sun-elevation=30,model=preetham", "--air", "--metres-per-unit", 1000)
+        picture = ("render", "ball.glb", *self.SIZE, *air)
+        for backend in ("gl", "cpu"):
+            self.run_tool(*picture, "-o", backend + ".exr", "--backend", backend, "--shafts",
+                          "--background")
+        self.run_tool("compare", "cpu.exr", "gl.exr", "--fail-above", "relative_rmse=0.03")
+        self.refused(*picture, "-o", "a.png", "--shafts", "--sun-shadow", "soft", code=USAGE,
+                     says=["shafts", "sharp"])
 
     def test_render_against_the_path_traced_truth(self):
         self.bake("ball.obj", "ball.glb", "--directions", 4096, "--encoding", "float32")

@@ -204,6 +204,105 @@ class View(ToolTest):
         # The message lies over the picture.
         self.assertGreater(mean_difference(self.path("before.png"), self.path("box.png")), 2.0)
 
+    def source(self, state):
+        return json.loads(self.path(state).read_text())["environment"]["source"]
+
+    def test_the_sky_follows_its_keys(self):
+        self.bake()
+        self.script("""
+            set panel off
+            set samples 4
+            set exposure -5
+            sky model preetham
+            sky time 10:30
+            sky lat -33.9
+            save-state first.json
+            screenshot first.png
+            set expose-sky on
+            sky sun-elevation 4
+            sky sun-azimuth 75
+            sky turbidity 4
+            save-state sun.json
+            screenshot sun.png
+            key D
+            sky sun-elevation 5
+            expect-discs 1
+            """, "ball.glb")
+        self.assertEqual(self.source("first.json"), "sky:date=2026-06-21,time=10:30,utc-offset=1,"
+                                                    "lat=-33.9,lon=6.15,model=preetham")
+        self.assertEqual(self.source("sun.json"),
+                         "sky:sun-elevation=4,sun-azimuth=75,model=preetham,turbidity=4")
+        # One exposure stayed as it was set, the other followed a low Sun.
+        exposures = [json.loads(self.path(name).read_text())["exposure"]
+                     for name in ("first.json", "sun.json")]
+        self.assertEqual(exposures[0], -5)
+        self.assertTrue(-4.5 < exposures[1] < -1, exposures)
+        for name in ("first", "sun"):
+            self.assert_as_rendered("ball.glb", name + ".png", name + ".json")
+        # A state brings its sky back, and its keys go on from there.
+        self.script("""
+            set panel off
+            screenshot again.png
+            sky time 11:00
+            key .
+            sky turbidity 3
+            save-state later.json
+            """, "ball.glb", "--view", "first.json")
+        self.assertEqual(mean_difference(self.path("first.png"), self.path("again.png")), 0.0)
+        self.assertEqual(self.source("later.json"),
+                         "sky:date=2026-06-21,time=11:05,utc-offset=1,lat=-33.9,lon=6.15,"
+                         "model=preetham,turbidity=3")
+
+    def test_at_night_the_sky_is_that_of_the_last_twilight(self):
+        self.bake()
+        self.script("""
+            set panel off
+            sky model cie-clear
+            sky date 2026-03-20
+            sky time 01:00
+            save-state evening.json
+            sky time 23:59:59
+            save-state late.json
+            sky time 12:00
+            save-state noon.json
+            sky lat 89
+            sky date 2026-12-21
+            save-state polar.json
+            screenshot polar.png
+            """, "ball.glb")
+        place = "lat=46.2,lon=6.15,model=cie-clear"
+        # Geneva: astronomical twilight from 4:58 to 20:25 by the clock of Central Europe.
+        first, last = (self.source(name).removeprefix("sky:date=2026-03-20,time=").split(",", 1)
+                       for name in ("evening.json", "late.json"))
+        for (clock, rest), hour in ((first, 4 + 58 / 60), (last, 20 + 25 / 60)):
+            hours, minutes = clock.split(":")
+            self.assertAlmostEqual(int(hours) + int(minutes) / 60, hour, delta=5 / 60)
+            self.assertEqual(rest, "utc-offset=1," + place)
+        self.assertIn("time=12:00", self.source("noon.json"))
+        self.assertRegex(self.source("polar.json"),
+                         r"^sky:sun-elevation=-18,sun-azimuth=[0-9.]+,model=cie-clear$")
+        self.assert_as_rendered("ball.glb", "polar.png", "polar.json")
+
+    def test_what_is_shown_stays_while_another_air_is_made(self):
+        self.bake()
+        cache = self.path("cache")
+        self.display = {**self.display, "XDG_CACHE_HOME": str(cache)}
+        self.script("""
+            set panel off
+            sky model preetham
+            drag sky model fast
+            drag sky turbidity 3
+            wait 2
+            save-state meanwhile.json
+            sky model cie:12
+            save-state after.json
+            """, "ball.glb")
+        moment = "sky:date=2026-06-21,time=12:00,utc-offset=1,lat=46.2,lon=6.15"
+        self.assertEqual(self.source("meanwhile.json"), moment + ",model=preetham")
+        self.assertEqual(self.source("after.json"), moment + ",model=cie:12,turbidity=3")
+        # Neither table was made to its end.
+        self.assertEqual(list(cache.glob("**/*.table")), [])
+
     def test_keys_do_what_the_list_says(self):
         self.bake()
         self.sky()
@@ -345,6 +444,10 @@ class View(ToolTest):
                 ("disc 0 0 9 1e39", BAD_INPUT, "script.txt:1: '1e39' is not a number from"),
                 ("set exposure 61", BAD_INPUT, "script.txt:1: the exposure is 61; it must be"),
                 ("set brightness 1", BAD_INPUT, "script.txt:1: 'brightness' cannot be set"),
+                ("sky time 25:00", BAD_INPUT, "script.txt:1: time: "),
+                ("sky turbidity 0.5", BAD_INPUT, "script.txt:1: turbidity: 0.5 is not within"),
+                ("sky timee 12:00", BAD_INPUT, "script.txt:1: there is no key 'timee'"),
+                ("drag sky colour 3", BAD_INPUT, "script.txt:1: there is no key 'colour'"),
                 ("key Shift+Z", BAD_INPUT, "script.txt:1: no key 'Shift+Z'"),
                 ("load gone.glb\nwait 2", BAD_INPUT, "script.txt:2: "),
                 ("wait 1\nexpect-error boo", FAILED, "script.txt:2: there was no error"),

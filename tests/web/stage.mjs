@@ -26,7 +26,7 @@ for (const shared of kShared) {
   rmSync(join(to, shared), { recursive: true, force: true });
   cpSync(join(from, shared), join(to, shared), { recursive: true });
 }
-for (const part of ["src", "test", "scripts"])
+for (const part of ["src", "test", "scripts", "data"])
   rmSync(join(folder, part), { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 cpSync(join(from, name), folder, { recursive: true, filter: (path) => !made(path) });

@@ -39,4 +39,5 @@ export {
   type Air,
   type SunPosition,
 } from "./sky/sun_position.js";
+export { LambentSky, Sky, type SkyModel, type SkyRequest, type SkySun } from "./sky/sky.js";
 export { hannWindow, lanczosWindow, minimalRingingWindow } from "./sh/window.js";

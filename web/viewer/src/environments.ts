@@ -13,9 +13,11 @@ import {
   ClampToEdgeWrapping,
   Vector3,
 } from "three";
-import { LambentLight, type Disc } from "three-lambent";
+import { LambentLight, type Disc, type Sky } from "three-lambent";
 import { directionFromAzimuthElevation, kRadians } from "./directions";
 import { asEquirectangular, decodeMap, reduced, type LightMap } from "./environment_map";
+import { skies } from "./skies";
+import { requestOf } from "./sky_source";
 import { parseSource } from "./source";
 import type { Triple } from "./view_state";
 
@@ -32,6 +34,7 @@ export interface LoadedEnvironment {
   texture: DataTexture | null;
   discs: Disc[];
   uniform: Triple;
+  sky: Sky | null;
   /** The light in n bands, before it is turned; held for the next call. */
   light(bands: number): LambentLight;
   dispose(): void;
@@ -51,6 +54,7 @@ export async function loadEnvironment(
   const seen: Disc[] = [];
   const hidden: Disc[] = [];
   const uniform: Triple = [0, 0, 0];
+  let sky: Sky | null = null;
   for (const term of parseSource(source, files.keys())) {
     if (term.kind === "uniform") {
       term.radiance.forEach((each, c) => (uniform[c]! += each));
@@ -74,6 +78,10 @@ export async function loadEnvironment(
         diameter: 2 * half,
         radiance: term.irradiance.map((each) => each / solidAngle) as Triple,
       });
+    } else if (term.kind === "sky") {
+      if (sky !== null) throw new Error(`light '${source}': this page shows one sky at a time`);
+      sky = (await skies()).at(requestOf(term.settings));
+      seen.push(...sky.discs);
     } else {
       const read = files.get(term.name);
       if (read === undefined)
@@ -96,6 +104,7 @@ export async function loadEnvironment(
     texture,
     discs: seen,
     uniform,
+    sky,
     light(bands) {
       let light = held.get(bands);
       if (light === undefined) {
@@ -103,12 +112,16 @@ export async function loadEnvironment(
         for (const each of maps)
           light.add(LambentLight.fromEquirectangular(asEquirectangular(each), bands));
         for (const each of harmonics) light.add(each);
+        if (sky !== null) light.add(sky.light(bands, { without: "discs" }));
         for (const disc of [...seen, ...hidden]) light.addDisc(disc);
         held.set(bands, light);
       }
       return light;
     },
-    dispose: () => texture?.dispose(),
+    dispose() {
+      texture?.dispose();
+      sky?.dispose();
+    },
   };
 }
 

@@ -34,6 +34,7 @@ export function facts(viewer: Viewer, environment: number): PanelFacts {
     disc: viewer.disc,
     playing: viewer.playing,
     unlit: viewer.unlit,
+    sky: { problem: viewer.skyProblem, follows: viewer.follows },
     info:
       asset === undefined
         ? "Drop a .glb that lambent bake wrote."

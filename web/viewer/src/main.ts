@@ -8,6 +8,7 @@ import { Panel, type PanelFacts } from "./panel";
 import { progressiveRead } from "./read_url";
 import { facts } from "./facts";
 import { save } from "./save";
+import type { SkySettings } from "./sky_source";
 import { parseView, viewToJson } from "./view_state";
 import { Viewer } from "./viewer";
 
@@ -73,6 +74,8 @@ function start(): void {
     addDisc: () => viewer.addDisc(),
     removeDisc: (index: number) => viewer.removeDisc(index),
     chooseDisc: (index: number) => viewer.chooseDisc(index),
+    showSky: (settings: SkySettings | null) => void viewer.showSky(settings),
+    followSky: (on: boolean) => viewer.followSky(on),
     frame: () => viewer.frame(),
     reset: () => viewer.reset(),
     play: (on: boolean) => viewer.play(on),

@@ -3,11 +3,12 @@ import type { TransferChoice, WindowName } from "three-lambent";
 import { button, h, segments, select, slider, toggle } from "./dom";
 import { DiscControls } from "./disc_controls";
 import type { FrameGraph } from "./frame_graph";
+import { SkyControls, type SkyActions, type SkyFacts } from "./sky_controls";
 import type { SkyMap } from "./sky_map";
 import type { ViewState } from "./view_state";
 
 /** What the panel asks its owner to do. */
-export interface PanelActions {
+export interface PanelActions extends SkyActions {
   change(what: (view: ViewState) => void): void;
   openAsset(index: number): void;
   openEnvironment(index: number): void;
@@ -34,6 +35,7 @@ export interface PanelFacts {
   disc: number;
   playing: boolean;
   unlit: boolean;
+  sky: SkyFacts;
   info: string;
   /** Why a choice shows nothing of its own; null where it does. */
   noTransfer: Record<TransferChoice, string | null>;
@@ -41,12 +43,13 @@ export interface PanelFacts {
   noLobe: string | null;
 }
 
-const kSections = ["Object", "Light", "Transport", "Picture"] as const;
+const kSections = ["Object", "Light", "Sky", "Transport", "Picture"] as const;
 type Section = (typeof kSections)[number];
 const kMostLobe = 200;
 
 export class Panel {
   readonly element: HTMLElement;
+  private environments = 0;
   private readonly updates: ((view: ViewState, facts: PanelFacts) => void)[] = [];
 
   constructor(
@@ -57,6 +60,7 @@ export class Panel {
     const sections: Record<Section, HTMLElement> = {
       Object: this.objectSection(),
       Light: this.lightSection(sky),
+      Sky: this.skySection(),
       Transport: this.transportSection(),
       Picture: this.pictureSection(graph),
     };
@@ -117,7 +121,9 @@ export class Panel {
 
   private lightSection(sky: SkyMap): HTMLElement {
     const { actions } = this;
-    const environments = select("Environment", (index) => actions.openEnvironment(index));
+    const environments = select("Environment", (index) => {
+      if (index < this.environments) actions.openEnvironment(index);
+    });
     const turn = slider({
       label: "Turn",
       min: -180,
@@ -162,7 +168,13 @@ export class Panel {
         }),
     });
     this.updates.push((view, facts) => {
-      environments.fill(facts.environments, facts.environment);
+      // What is not of the list has no other name.
+      this.environments = facts.environments.length;
+      const sky = facts.environment < 0 && view.environment.source.startsWith("sky:");
+      environments.fill(
+        sky ? [...facts.environments, "Sky"] : facts.environments,
+        sky ? facts.environments.length : facts.environment,
+      );
       const [x, y, z, w] = view.environment.rotation;
       turn.set(Math.round((Math.atan2(2 * (w * y + x * z), 1 - 2 * (x * x + y * y)) * 180) / Math.PI));
       play.set(facts.playing);
@@ -175,6 +187,12 @@ export class Panel {
     });
     return this.section("Light", environments.element, sky.element, turn.element, play.element,
       discs.element, window.element, widthSlider.element);
+  }
+
+  private skySection(): HTMLElement {
+    const controls = new SkyControls(this.actions);
+    this.updates.push((view, facts) => controls.show(view, facts.sky));
+    return this.section("Sky", controls.element);
   }
 
   private transportSection(): HTMLElement {
@@ -238,8 +256,8 @@ export class Panel {
     const { actions } = this;
     const exposure = slider({
       label: "Exposure",
-      min: -6,
-      max: 6,
+      min: -10,
+      max: 24, // of a sky with the Sun at −18°
       step: 0.1,
       format: (value) => `${value > 0 ? "+" : ""}${value.toFixed(1)} EV`,
       change: (value) => actions.change((view) => (view.exposure = value)),

@@ -4,7 +4,7 @@ import { Quaternion, Vector3 } from "three";
 import { filmic, srgbEncode } from "three-lambent";
 import { h } from "./dom";
 import { pixelAt } from "./environment_map";
-import { azimuthElevationOf, directionFromAzimuthElevation } from "./directions";
+import { azimuthElevationOf, directionFromAzimuthElevation, kRadians } from "./directions";
 import type { LoadedEnvironment } from "./environments";
 import type { DiscState, ViewState } from "./view_state";
 
@@ -86,6 +86,17 @@ export class SkyMap {
     context.drawImage(small, 0, 0, this.element.width, this.element.height);
     context.fillStyle = "#ffffff30";
     context.fillRect(0, this.element.height / 2, this.element.width, 1);
+    const sun = environment?.sky?.sun;
+    if (sun?.disc) {
+      // Half a degree would not show here.
+      const turn = new Quaternion(...view.environment.rotation);
+      const at = azimuthElevationOf(new Vector3(...sun.direction).applyQuaternion(turn));
+      const { u, v } = onMap({ azimuth: at.azimuth / kRadians, elevation: at.elevation / kRadians });
+      context.beginPath();
+      context.arc(u * this.element.width, v * this.element.height, 5, 0, 2 * Math.PI);
+      context.fillStyle = "#ffffff";
+      context.fill();
+    }
     view.discs.forEach((disc, i) => this.paintDisc(context, disc, i === this.chosen));
   }
 
@@ -109,8 +120,9 @@ export class SkyMap {
           const [u, v] = [azimuth / (2 * Math.PI) + 0.5, 0.5 - elevation / Math.PI];
           pixelAt(environment.map, u, v).forEach((each, c) => (color[c]! += each));
         }
+        environment?.sky?.radiance(direction).forEach((each, c) => (color[c]! += each));
         for (const disc of environment?.discs ?? [])
-          if (direction.dot(disc.direction as Vector3) > Math.cos(disc.diameter / 2))
+          if (!disc.horizon && direction.dot(disc.direction as Vector3) > Math.cos(disc.diameter / 2))
             disc.radiance.forEach((each, c) => (color[c]! += each));
         for (let c = 0; c < 3; ++c) {
           const exposed = gain * color[c]!;
@@ -139,7 +151,7 @@ export class SkyMap {
   }
 }
 
-function onMap(disc: DiscState): { u: number; v: number } {
+function onMap(disc: { azimuth: number; elevation: number }): { u: number; v: number } {
   const u = disc.azimuth / 360 + 0.5;
   return { u: u - Math.floor(u), v: 0.5 - disc.elevation / 180 };
 }

@@ -1,12 +1,14 @@
-// SOURCE of light as text, as the tool takes it (lambent/sources/source.h): files, uniform, discs and
-// directional lights, and sums of them.
+// SOURCE of light as text, as the tool takes it (lambent/sources/source.h): files, uniform, discs,
+// directional lights, skies, and sums of them.
+import { parseSky, type SkySettings } from "./sky_source";
 import type { Triple } from "./view_state";
 
 export type Term =
   | { kind: "file"; name: string }
   | { kind: "uniform"; radiance: Triple }
   | { kind: "disc"; azimuth: number; elevation: number; diameter: number; radiance: Triple }
-  | { kind: "directional"; azimuth: number; elevation: number; irradiance: Triple };
+  | { kind: "directional"; azimuth: number; elevation: number; irradiance: Triple }
+  | { kind: "sky"; settings: SkySettings };
 
 function numberOf(text: string, source: string): number {
   const value = Number(text);
@@ -47,17 +49,19 @@ function termOf(text: string): Term {
       throw new Error(`light '${text}': a diameter is above 0 and up to 360 degrees`);
     return { kind, azimuth: azimuth!, elevation: elevation!, diameter: diameter!, radiance: color };
   }
-  if (kind === "sky")
-    throw new Error(
-      `light '${text}': this page makes no skies; the native viewer (lambent view) and ` +
-        "lambent render show it",
-    );
+  if (kind === "sky") {
+    try {
+      return { kind, settings: parseSky(rest) };
+    } catch (error) {
+      throw new Error(`light '${text}': ${(error as Error).message}`);
+    }
+  }
   return { kind: "file", name: text };
 }
 
 /**
  * The terms of a sum. `files` are names that the page has a file for: a '+' inside of one does not
- * divide, nor does one in an exponent (1e+3). Throws an Error that says what cannot be understood.
+ * divide, nor does one in an exponent (1e+3), nor the sign of a sky's number. Throws an Error that says what cannot be understood.
  */
 export function parseSource(text: string, files: Iterable<string>): Term[] {
   const names = [...files].sort((a, b) => b.length - a.length);
@@ -73,8 +77,14 @@ export function parseSource(text: string, files: Iterable<string>): Term[] {
 }
 
 function endOfTerm(text: string): number {
-  const analytic = /^(uniform|disc:|directional:)/.test(text);
+  const sky = text.startsWith("sky:");
+  const analytic = sky || /^(uniform|disc:|directional:)/.test(text);
   for (let i = 0; i < text.length; ++i)
-    if (text[i] === "+" && !(analytic && /[0-9.][eE]$/.test(text.slice(0, i)))) return i;
+    if (
+      text[i] === "+" &&
+      !(analytic && /[0-9.][eE]$/.test(text.slice(0, i))) &&
+      !(sky && /=$/.test(text.slice(0, i)))
+    )
+      return i;
   return text.length;
 }

@@ -21,6 +21,7 @@ import {
   frameAutomatically,
   kMostDiscs,
   subpixelPositions,
+  type DirectionLike,
   type Disc,
   type Environment,
 } from "three-lambent";
@@ -160,6 +161,8 @@ export class Stage {
       view.window === "hann" || view.window === "lanczos" ? `${view.window}:${bands}` : view.window,
     );
 
+    const turned = ({ x, y, z }: DirectionLike) => new Vector3(x, y, z).applyQuaternion(turn);
+    const dome = this.environment?.sky?.dome;
     const seen: Environment = {
       texture: this.environment?.texture ?? null,
       rotation: turn,
@@ -167,10 +170,14 @@ export class Stage {
       discs: [
         ...(this.environment?.discs ?? []).map((disc) => ({
           ...disc,
-          direction: new Vector3().copy(disc.direction).applyQuaternion(turn),
+          direction: turned(disc.direction),
+          ...(disc.horizon && { horizon: { ...disc.horizon, up: turned(disc.horizon.up) } }),
         })),
         ...discs,
       ].slice(0, kMostDiscs),
+      sky: dome
+        ? { ...dome, rotation: turn.clone().multiply(new Quaternion().copy(dome.rotation as Quaternion)) }
+        : null,
     };
     this.background.setEnvironment(seen);
     this.background.visible = view.background;

@@ -10,12 +10,14 @@ import type { AssetEntry, EnvironmentEntry } from "./manifest";
 import { LoadingBar, Messages } from "./messages";
 import { orbit, pan, turnEnvironment, turnObject, zoom, type Grip } from "./orbit";
 import { SkyMap } from "./sky_map";
+import { skySource, type SkySettings } from "./sky_source";
 import { Stage } from "./stage";
 import {
   defaultView,
   parseView,
   type DiscState,
   type LookAt,
+  type Rotation,
   type Triple,
   type ViewState,
 } from "./view_state";
@@ -31,6 +33,7 @@ const kRadiansPerPixel = 0.008;
 const kGoRound = 0.35; // radians a second
 /** Width over height that the manifest's views leave nothing out at. */
 const kViewsMadeFor = 1.15;
+const kSkyMean = 0.45; // what the mean radiance of a sky is exposed to
 const kStillAfter = 120; // milliseconds without a change until a picture is refined
 
 export class Viewer {
@@ -46,6 +49,9 @@ export class Viewer {
   grip: Grip = "camera";
   playing = false;
   unlit = false;
+  /** Whether the exposure follows the sky, and why the last one that was wanted is not shown. */
+  follows = true;
+  skyProblem: string | null = null;
   /** Called after anything changed that controls show. */
   changed: () => void = () => {};
 
@@ -60,6 +66,8 @@ export class Viewer {
   private drawing: (() => void)[] = [];
   private lost = false;
   private opening = 0;
+  private skiesWanted = 0;
+  private beforeSky: { source: string; rotation: Rotation; exposure: number } | null = null;
 
   /** Throws where the browser gives no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -142,6 +150,7 @@ export class Viewer {
     this.view.environment.source = source;
     this.disc = -1;
     this.unlit = false;
+    this.exposeSky();
     this.play(false);
   }
   play(on: boolean): void {
@@ -178,6 +187,60 @@ export class Viewer {
   chooseDisc(index: number): void {
     this.disc = index;
     this.touch();
+  }
+
+  // The sky ---------------------------------------------------------------------------------------
+
+  /**
+   * Shows a sky in place of the environment: once its data is there, in the next frame. null: shows
+   * again what was there before.
+   */
+  async showSky(settings: SkySettings | null): Promise<void> {
+    const ticket = ++this.skiesWanted;
+    const before = this.beforeSky;
+    const wanted = settings === null ? null : skySource(settings);
+    try {
+      const source = wanted ?? before?.source ?? this.environments[0]?.source ?? "uniform:1";
+      const loaded = await loadEnvironment(source, this.files, this.stage.floatTextures);
+      if (ticket !== this.skiesWanted) return loaded.dispose();
+      const shown = this.view.environment;
+      const enters = wanted !== null && !shown.source.startsWith("sky:");
+      if (enters)
+        this.beforeSky = structuredClone({ ...shown, exposure: this.view.exposure });
+      this.stage.setEnvironment(loaded);
+      this.skyProblem = null;
+      this.change((view) => {
+        view.environment.source = source;
+        if (enters) view.environment.rotation = [0, 0, 0, 1]; // north is north
+        if (wanted === null && before !== null) {
+          view.environment.rotation = before.rotation;
+          view.exposure = before.exposure;
+        }
+      });
+      this.exposeSky();
+    } catch (error) {
+      if (ticket !== this.skiesWanted) return;
+      const text = error instanceof Error ? error.message : String(error);
+      this.skyProblem = text.replace(/^LambentSky: /, "");
+      this.changed();
+    }
+  }
+  followSky(on: boolean): void {
+    this.follows = on;
+    this.exposeSky();
+    this.touch();
+  }
+  private exposeSky(): void {
+    const exposure = this.skyExposure();
+    if (this.follows && exposure !== null) this.change((view) => (view.exposure = exposure));
+  }
+  /** EV by which the mean radiance from everywhere becomes a middle tone; null: there is no sky. */
+  private skyExposure(): number | null {
+    const sky = this.stage.environment?.sky;
+    if (!sky) return null;
+    const [r, g, b] = sky.light(1).radiance({ x: 0, y: 1, z: 0 });
+    const mean = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    return Math.round(100 * Math.log2(kSkyMean / mean)) / 100;
   }
 
   // Files -----------------------------------------------------------------------------------------
@@ -230,8 +293,13 @@ export class Viewer {
   async openEnvironment(index: number): Promise<boolean> {
     const { name, source } = this.environments[index]!;
     return this.attempt(`Loading ${name}`, async () => {
+      ++this.skiesWanted; // what a sky that is still on its way would undo
       await this.useEnvironment(source);
-      this.change((view) => (view.environment.source = source));
+      this.change((view) => {
+        if (view.environment.source.startsWith("sky:") && this.beforeSky !== null)
+          view.exposure = this.beforeSky.exposure;
+        view.environment.source = source;
+      });
     });
   }
   /** Shows a saved view. */
@@ -240,8 +308,11 @@ export class Viewer {
       const view = parseView(json, name);
       if (view.discs.length > kMostDiscs)
         this.messages.note(`Mirrors and the background show the first ${kMostDiscs} discs alone.`);
+      ++this.skiesWanted;
       await this.useEnvironment(view.environment.source);
       this.view = view;
+      this.skyProblem = null;
+      this.follows = [null, view.exposure].includes(this.skyExposure());
       this.disc = -1;
       this.touch();
     });

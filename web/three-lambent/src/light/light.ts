@@ -4,6 +4,7 @@ import type { LightProbe, Texture } from "three";
 import { bandsOf, coefficientCount, evaluateHarmonics, kMaxBands } from "../sh/basis.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
 import { hannWindow, lanczosWindow, minimalRingingWindow } from "../sh/window.js";
+import type { Sky } from "../sky/sky.js";
 import { addDisc } from "./disc.js";
 import { projectEquirectangular, type EquirectangularImage } from "./equirectangular.js";
 import { imageOfTexture } from "./texture-pixels.js";
@@ -168,6 +169,11 @@ export class LambentLight {
     const count = Math.min(this.coefficients.length, other.coefficients.length);
     for (let i = 0; i < count; ++i) this.coefficients[i] += factor * other.coefficients[i];
     return this.touch();
+  }
+
+  /** Becomes the light of a sky: dome, ground and Sun. */
+  setSky(sky: Sky): this {
+    return this.copy(sky.light(this.bands));
   }
 
   /** Multiplies all radiance. */
