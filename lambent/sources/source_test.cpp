@@ -302,7 +302,7 @@ TEST_F(Source, HelpHasALineForEveryForm) {
   uniform[:RADIANCE]           the same from everywhere
   disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]
                                degrees; azimuth from +x towards +z, elevation from the horizon
-  sky:KEY=VALUE[,…]            sky, Sun and ground; its keys are the options of 'lambent sky'
+  sky:KEY=VALUE[,…]            a sky with its Sun and ground, by the keys of 'lambent sky'
   A+B+…                        the sum of several. RADIANCE is one number or R/G/B.
 )");
 }
