@@ -84,7 +84,7 @@ class Numbers(ToolTest):
 
     # What stands for the value of an option that takes no number, in the help.
     WORDS = {"KIND", "CURVE", "AXIS", "NAME", "WINDOW", "SOURCE", "FILE", "SCENE|demo", "on|off",
-             "sharp|soft", "METRIC=VALUE"}
+             "sharp|soft", "ray|axis", "METRIC=VALUE"}
 
     def refused_number(self, command, option, text, *more):
         self.refused(*command, f"{option}={text}", code=USAGE,
