@@ -155,8 +155,9 @@ class TransferChoice(ToolTest):
         self.run_tool("compare", "cpu.png", "gl.png", "--fail-above", "difference=0.5")
         told = self.run_json("render", "all.glb", *light, "-o", "soft.png", "--sun-shadow", "soft")
         self.assertIsNone(told["sun_shadow"])
+        # Twice what the backends may be apart.
         apart = self.run_json("compare", "gl.png", "soft.png")
-        self.assertGreater(apart["difference_lit"], 3)
+        self.assertGreater(apart["difference_lit"], 1)
         self.bake("ball.obj", "one.glb", *self.SCENE)
         self.assertIn("--keep-shadowed",
                       self.run_tool("render", "one.glb", *light, "-o", "one.png").stderr)
