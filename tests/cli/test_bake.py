@@ -145,6 +145,23 @@ class TransferChoice(ToolTest):
         self.assertNotEqual(self.path("shadowed.gl.png").read_bytes(),
                             self.path("interreflected.gl.png").read_bytes())
 
+    def test_the_suns_shadow_is_sharp_where_shadowed_transfer_is_kept(self):
+        light = ("--light", "uniform:0.2+disc:40,30,0.53,20000", "--size", "96x72", "--exposure", 0)
+        self.bake("ball.obj", "all.glb", *self.SCENE, "--keep-shadowed")
+        for backend in ("cpu", "gl"):
+            told = self.run_json("render", "all.glb", *light, "-o", f"{backend}.png", "--backend",
+                                 backend)
+            self.assertEqual(told["sun_shadow"], "sharp")
+        self.run_tool("compare", "cpu.png", "gl.png", "--fail-above", "difference=0.5")
+        told = self.run_json("render", "all.glb", *light, "-o", "soft.png", "--sun-shadow", "soft")
+        self.assertIsNone(told["sun_shadow"])
+        # Twice what the backends may be apart.
+        apart = self.run_json("compare", "gl.png", "soft.png")
+        self.assertGreater(apart["difference_lit"], 1)
+        self.bake("ball.obj", "one.glb", *self.SCENE)
+        self.assertIn("--keep-shadowed",
+                      self.run_tool("render", "one.glb", *light, "-o", "one.png").stderr)
+
     def test_info_tells_what_is_kept(self):
         summary = self.run_json("bake", self.write("ball.obj", ball_obj()), "-o", "all.glb",
                                 *self.SCENE, "--directions", 64, "--keep-shadowed")
