@@ -203,12 +203,17 @@ TEST(ExactAir, GrowsWithDistance) {
   for (int trial = 0; trial < 30; ++trial) {
     const ViewerInAir viewer{1e4 * uniform(random), (100 * uniform(random) - 10) * kDegree};
     const ExactAir air = exactAir(viewer);
-    const Vec3d direction = towards(0.3 * (uniform(random) - 0.3), kPi * uniform(random));
+    const double elevation = 0.3 * (uniform(random) - 0.3);
+    const Vec3d direction = towards(elevation, kPi * uniform(random));
     AirBetween before = air.at(direction, 1);
     for (double distance = 2; distance < 2e6; distance *= 2) {
       const AirBetween now = air.at(direction, distance);
       EXPECT_GE(luminanceOf(now.inScattered()), luminanceOf(before.inScattered()) * (1 - 1e-3));
-      EXPECT_TRUE((now.extinction <= before.extinction + 1e-6).all());
+      // Every wavelength loses; a channel of Rec. 709 that has all but gone may gain a little by the
+      // wavelengths that count negative in it (1.5e-3 seen, after 500 km of grazing air).
+      EXPECT_LE((now.extinction - before.extinction).maxCoeff(),
+                before.extinction.minCoeff() > 0.01 ? 1e-6 : 3e-3)
+          << trial << ' ' << distance;
       before = now;
     }
   }
