@@ -16,10 +16,7 @@ Result<AerialPerspective> makeAerialPerspective(const SkyOptions& options, Aeria
   for (int i = 0; i <= steps; ++i) nm.push_back(380 + i * 360.0 / steps);
   Resolution resolution =
       options.model == Model::Exact ? Resolution::exact(options.refine) : Resolution::fast();
-  // Light comes from afar: what a Sun 25° higher lights is some three orders of scattering away.
-  const double zenith = kPi / 2 - options.sunElevation;
-  resolution.sunFrom = zenith - 25 * kPi / 180;
-  resolution.sunTo = zenith + 14 * kPi / 180;
+  resolution.lookUpAt(kPi / 2 - options.sunElevation);
   Result<Scattering> solved = Scattering::solve(mediumOf(atmosphere, nm), resolution, progress);
   if (!solved) return solved.error();
   switch (form) {

@@ -99,10 +99,8 @@ std::vector<double> exactWavelengths(const SkyOptions& options) {
 
 Result<Sky> exactSky(const SkyOptions& options, const Progress& progress) {
   Resolution resolution = Resolution::exact(options.refine);
-  // Light comes from afar: what a Sun 25° higher lights is some three orders of scattering away.
   const double zenith = kPi / 2 - options.sunElevation;
-  resolution.sunFrom = zenith - 25 * kPi / 180;
-  resolution.sunTo = zenith + 14 * kPi / 180;
+  resolution.lookUpAt(zenith);
   Result<Scattering> solved = Scattering::solve(
       mediumOf(options.atmosphere, exactWavelengths(options)), resolution, progress);
   if (!solved) return solved.error();

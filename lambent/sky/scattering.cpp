@@ -48,6 +48,11 @@ Resolution Resolution::exact(int refine) {
   return r;
 }
 
+void Resolution::lookUpAt(double sunZenith) {
+  sunFrom = sunZenith - 25 * kPi / 180;
+  sunTo = sunZenith + 14 * kPi / 180;
+}
+
 Result<Scattering> Scattering::solve(Medium medium, const Resolution& resolution,
                                      const Progress& progress) {
   auto impl = std::make_shared<Impl>();

@@ -37,6 +37,9 @@ struct Resolution {
   double sunFrom = 0, sunTo = 4;
 
   static Resolution fast() { return {}; }
+  /// For rays that begin where the Sun has this zenith angle alone: light comes from afar, and what a
+  /// Sun 25° higher lights is some three orders of scattering away.
+  void lookUpAt(double sunZenith);
   /// Each step of `refine` is finer by half again.
   static Resolution exact(int refine = 0);
 };
