@@ -26,19 +26,6 @@ namespace {
 using namespace lambent;
 using namespace lambent::bench;
 
-template <class T>
-T valueOf(Result<T> result) {
-  if (result) return std::move(*result);
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
-
-void expectOk(const Status& status) {
-  if (status) return;
-  fmt::print(stderr, "{}\n", status.error().message);
-  std::exit(1);
-}
-
 constexpr const char* kSky = "sky:sun-elevation=20,sun-azimuth=60,altitude=200";
 
 /// Hills of 16 km × 16 km.

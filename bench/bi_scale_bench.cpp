@@ -28,13 +28,6 @@ namespace {
 using namespace lambent;
 using namespace lambent::bench;
 
-template <class T>
-T valueOf(Result<T> result) {
-  if (result) return std::move(*result);
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
-
 /// Seconds by stage, from what the stages tell of themselves.
 class StageTimes {
  public:

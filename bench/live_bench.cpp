@@ -34,19 +34,6 @@ namespace {
 using namespace lambent;
 using namespace lambent::bench;
 
-template <class T>
-T valueOf(Result<T> result) {
-  if (result) return std::move(*result);
-  fmt::print(stderr, "{}\n", result.error().message);
-  std::exit(1);
-}
-
-void expectOk(const Status& status) {
-  if (status) return;
-  fmt::print(stderr, "{}\n", status.error().message);
-  std::exit(1);
-}
-
 bool quick = false;
 
 const light::Environment& environment() {
