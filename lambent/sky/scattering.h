@@ -21,10 +21,10 @@ namespace lambent::sky {
 
 /// How finely light is resolved. Refined, it converges to the light of the medium.
 struct Resolution {
-  double sunDensity = 1;         ///< of the Sun's zenith angles: 1 is 5° by day, 1° in twilight
-  int altitudes = 12;            ///< ≥ 4
-  int upward = 9, downward = 6;  ///< zenith angles of arriving light above and below the horizon
-  int around = 8;                ///< azimuths of it, over half a turn
+  double sunDensity = 1.2;        ///< of the Sun's zenith angles: 1 is 5° by day, 1° in twilight
+  int altitudes = 12;             ///< ≥ 4
+  int upward = 12, downward = 6;  ///< zenith angles of arriving light above and below the horizon
+  int around = 8;                 ///< azimuths of it, over half a turn
   int zeniths = 21, azimuths = 11;  ///< directions of light that goes on, ≥ 4; over half a turn
   int levels = 7;                   ///< of altitude between which rays are split
   int nodes = 3;                    ///< of a ray's piece
