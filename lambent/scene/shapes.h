@@ -67,4 +67,10 @@ std::uint32_t addTo(Scene& scene, Mesh mesh, Material material);
 /// normal to; they get +Y.
 std::size_t computeNormals(Mesh& mesh, std::span<const std::uint32_t> groups = {});
 
+/// Sets normals as computeNormals does, but smooth only across edges between two triangles whose
+/// normals lie within `angle` (radians) of each other: with 0 every facet is flat. Vertices are
+/// split where they need several normals; the first keeps its number and others are appended.
+/// Positions that are equal are one place, whatever their UVs. Returns as computeNormals.
+std::size_t creaseNormals(Mesh& mesh, float angle);
+
 }  // namespace lambent::scene

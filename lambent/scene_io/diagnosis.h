@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -40,7 +41,10 @@ struct FinishOptions {
   Front front = Front::Winding;
   /// Keep unused vertices and degenerate triangles (see GltfLoadOptions::keepAllVertices).
   bool keepAllVertices = false;
-  /// One per vertex: vertices of the same group share a made normal. Empty: each its own.
+  /// Radians: made normals are smooth across edges that bend by less, and vertices there are split.
+  /// Nothing: smooth everywhere, and no vertex is split.
+  std::optional<float> crease;
+  /// Without `crease`, one per vertex: vertices of the same group share a made normal. Empty: each its own.
   std::span<const std::uint32_t> groups;
 };
 

@@ -44,6 +44,17 @@ GltfImages::GltfImages(const GltfFile& file) : file_(file) {
     want(find(pbr, "baseColorTexture"), texelsWanted_);
     want(find(pbr, "metallicRoughnessTexture"), meansWanted_);
     want(find(material, "emissiveTexture"), meansWanted_);
+    const json* extensions = find(material, "extensions");
+    const json* specular = find(extensions, "KHR_materials_specular");
+    want(find(specular, "specularTexture"), meansWanted_);
+    want(find(specular, "specularColorTexture"), meansWanted_);
+    if (specular != nullptr || find(extensions, "KHR_materials_ior") != nullptr) {
+      want(find(pbr, "baseColorTexture"), meansWanted_);
+    }
+    const json* older = find(extensions, "KHR_materials_pbrSpecularGlossiness");
+    want(find(older, "diffuseTexture"), texelsWanted_);
+    want(find(older, "diffuseTexture"), meansWanted_);
+    want(find(older, "specularGlossinessTexture"), meansWanted_);
   }
 }
 

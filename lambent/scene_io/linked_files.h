@@ -28,6 +28,7 @@ class LinkedFiles {
   LinkedFiles(const std::filesystem::path& scene, const LoadOptions& options)
       : scene_(scene), options_(options), budget_(options.memoryLimit) {}
 
+  const LoadOptions& options() const { return options_; }
   /// What reading the scene costs, with all the files that it names.
   file::Budget& budget() { return budget_; }
 

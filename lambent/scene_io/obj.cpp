@@ -314,6 +314,7 @@ Result<LoadedScene> ObjReader::read() {
     FinishOptions finish;
     finish.front = Front::Normals;
     finish.groups = groups;
+    finish.crease = files_.options().crease;
     if (Status status = finishMesh(*mesh, finish, name_, place, diagnosis_); !status) {
       return status.error();
     }

@@ -365,6 +365,7 @@ Result<LoadedScene> PlyReader::read() {
   mesh_.name = path_.stem().string();
   FinishOptions finish;
   finish.front = Front::Normals;
+  finish.crease = files_.options().crease;
   const bool colored = !mesh_.colors.empty();
   if (Status status = finishMesh(mesh_, finish, name_, "the mesh", diagnosis_); !status) {
     return status.error();
