@@ -45,6 +45,7 @@ Mesh ring(float innerRadius, float outerRadius, float height, int segments, int 
 /// Positions by the matrix, normals by its inverse transpose; a reflection turns the winding over
 /// so that the front stays the front.
 Mesh transformed(Mesh mesh, const Mat4& dstFromSrc);
+Mesh transformed(Mesh mesh, const Eigen::Matrix4d& dstFromSrc);
 Mesh translated(Mesh mesh, const Vec3& offset);
 Mesh scaled(Mesh mesh, const Vec3& factors);
 Mesh rotated(Mesh mesh, const Vec3& axis, float radians);

@@ -211,12 +211,19 @@ void Diagnosis::add(Severity severity, const std::string& code, std::uint64_t co
   if (!isNew) entry->second.count += count;
 }
 
+void Diagnosis::lose(Severity severity, const std::string& code, std::uint64_t count,
+                     const std::string& what, const std::string& place) {
+  add(severity, code, count, what, place);
+  entries_.at(code).loss = true;
+}
+
 Findings Diagnosis::findings() const {
   Findings findings;
   for (const auto& [code, entry] : entries_) {
-    std::string message = std::to_string(entry.count) + " " + entry.what;
+    std::string message = entry.count > 0 ? std::to_string(entry.count) + " " : std::string();
+    message += entry.what;
     if (!entry.place.empty()) message += " (first: " + entry.place + ")";
-    findings.push_back({entry.severity, code, std::move(message), entry.count});
+    findings.push_back({entry.severity, code, std::move(message), entry.count, entry.loss});
   }
   return findings;
 }

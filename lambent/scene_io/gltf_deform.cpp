@@ -38,6 +38,8 @@ Status morph(const GltfFile& file, const json& primitive, const std::vector<doub
     if (!accessor || to.empty()) return Status::ok();
     const Result<std::vector<float>> offsets = file.accessorFloats(*accessor, 3);
     if (!offsets) return offsets.error();
+    const std::string what = file.path().string() + ": " + place + ", its morph targets";
+    if (Status fits = file.budget().work(4 * offsets->size(), what); !fits) return fits;
     if (offsets->size() != 3 * to.size()) {
       return report::badInput(file.path().string() + ": " + place + ": a morph target's " + name +
                               " has not as many elements as POSITION; export the file again");
@@ -57,12 +59,12 @@ Status morph(const GltfFile& file, const json& primitive, const std::vector<doub
 }
 
 Result<std::optional<GltfSkin>> GltfSkin::of(const GltfFile& file, std::int64_t index,
-                                             const std::vector<GltfNode>& nodes,
+                                             std::span<const GltfNode* const> nodes,
                                              Diagnosis& diagnosis) {
   const json* skin = element(file.json(), "skins", index);
   const json* joints = find(skin, "joints");
   const auto ignored = [&](const std::string& why) {
-    diagnosis.add(Severity::Warning, "skin-ignored", 1,
+    diagnosis.lose(Severity::Warning, "skin-ignored", 1,
                   "skins are not whole and were ignored: their meshes stand as they were modelled; "
                   "export the file again, or apply its pose in a modelling program",
                   "skin " + std::to_string(index) + " " + why);
@@ -71,18 +73,18 @@ Result<std::optional<GltfSkin>> GltfSkin::of(const GltfFile& file, std::int64_t 
   if (arraySize(joints) == 0) return ignored("has no joints");
   GltfSkin result;
   result.worldFromBind_.reserve(joints->size());
-  std::vector<const GltfNode*> byIndex(arraySize(find(file.json(), "nodes")), nullptr);
-  for (const GltfNode& node : nodes) byIndex[std::size_t(node.index)] = &node;
   for (const json& joint : *joints) {
     const std::int64_t node = asInteger(&joint).value_or(-1);
-    if (node < 0 || std::size_t(node) >= byIndex.size() || byIndex[std::size_t(node)] == nullptr) {
+    if (node < 0 || std::size_t(node) >= nodes.size() || nodes[std::size_t(node)] == nullptr) {
       return ignored("has a joint that is not in the scene");
     }
-    result.worldFromBind_.push_back(byIndex[std::size_t(node)]->worldFromNode);
+    result.worldFromBind_.push_back(nodes[std::size_t(node)]->worldFromNode);
   }
   if (const auto accessor = integer(skin, "inverseBindMatrices")) {
     const Result<std::vector<float>> inverse = file.accessorFloats(*accessor, 16);
     if (!inverse) return inverse.error();
+    const std::string what = file.path().string() + ": skin " + std::to_string(index);
+    if (Status fits = file.budget().work(4 * inverse->size(), what); !fits) return fits.error();
     if (inverse->size() < 16 * result.worldFromBind_.size()) {
       return ignored("has fewer inverse bind matrices than joints");
     }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,11 @@ Status morph(const GltfFile& file, const nlohmann::json& primitive,
 class GltfSkin {
  public:
   /// Nothing, and a Warning, where the skin is not whole.
+  /// `nodes`: by their numbers (nodesByIndex).
   static Result<std::optional<GltfSkin>> of(const GltfFile& file, std::int64_t skin,
-                                            const std::vector<GltfNode>& nodes,
+                                            std::span<const GltfNode* const> nodes,
                                             Diagnosis& diagnosis);
+  const std::vector<Eigen::Matrix4d>& joints() const { return worldFromBind_; }
   /// Moves `mesh` to where its joints hold it, in world space. `weights` and `joints`: 4·n of each
   /// vertex. False, and nothing is moved, where a joint is referred to that there is not.
   bool pose(std::span<const float> joints, std::span<const float> weights, scene::Mesh& mesh) const;

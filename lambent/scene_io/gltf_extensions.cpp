@@ -159,20 +159,24 @@ void noteExtensions(const json& document, Diagnosis& diagnosis) {
     const Extension* entry = entryOf(name);
     if (entry != nullptr && entry->changes.empty()) continue;
     if (++named > kMostNames) {
-      diagnosis.add(Severity::Warning, "extension-others", 1, "more extensions are not read");
+      diagnosis.lose(Severity::Warning, "extension-others", 1, "more extensions are not read");
       continue;
     }
     const std::string shown = name.substr(0, 100);
     std::string what = fmt::format("uses of {}, which is not read: ", shown);
-    what += count == 0         ? "nothing in the file makes use of it"
-            : entry != nullptr ? std::string(entry->changes)
-                               : "what it changes is not known here";
-    if (count > 0 && (entry == nullptr || entry->without != Without::Same)) {
+    what += entry != nullptr ? std::string(entry->changes) : "what it changes is not known here";
+    if (entry == nullptr || entry->without != Without::Same) {
       const std::string remedy = remedyFor(name);
       what += "; " + remedy + (entry != nullptr && !entry->remedy.empty() ? "" : " if it matters");
     }
-    const bool harmless = count == 0 || (entry != nullptr && entry->without == Without::Same);
-    diagnosis.add(harmless ? Severity::Note : Severity::Warning, "extension-" + shown, count, what);
+    const std::string code = "extension-" + shown;
+    if (count == 0) {
+      diagnosis.add(Severity::Note, code, 0, shown + " is declared and not read; nothing uses it");
+    } else if (entry != nullptr && entry->without == Without::Same) {
+      diagnosis.add(Severity::Note, code, count, what);
+    } else {
+      diagnosis.lose(Severity::Warning, code, count, what);
+    }
   }
 }
 

@@ -12,9 +12,11 @@
 #include "lambent/scene/shapes.h"
 #include "lambent/scene_io/diagnosis.h"
 #include "lambent/scene_io/gltf_extensions.h"
+#include "lambent/scene_io/gltf_extent.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_materials.h"
 #include "lambent/scene_io/gltf_nodes.h"
+#include "lambent/scene_io/gltf_origin.h"
 #include "lambent/scene_io/gltf_primitive.h"
 #include "lambent/scene_io/gltf_read.h"
 #include "lambent/scene_io/mesh_bytes.h"
@@ -46,6 +48,7 @@ class Loader {
   Error bad(const std::string& message) const { return report::badInput(name_ + ": " + message); }
   Status checkExtensions();
   Status visitNodes();
+  Status moveNear();
   Status placeMesh(const GltfNode& node, std::int64_t mesh);
   Status placePrimitive(const GltfNode& node, std::span<const Mat4d> instances,
                         const LoadedGltf::Origin& origin, const std::string& name, bool several);
@@ -63,6 +66,8 @@ class Loader {
   LoadedGltf result_;
   Diagnosis diagnosis_;
   std::vector<GltfNode> nodes_;
+  std::vector<const GltfNode*> nodeAt_;         ///< by number
+  Mat4d nearFromFile_ = Mat4d::Identity();      ///< a translation
   std::map<std::int64_t, std::optional<GltfSkin>> skins_;
   std::optional<GltfMaterials> materials_;
   std::size_t triangles_ = 0;
@@ -86,6 +91,8 @@ Status Loader::visitNodes() {
   Result<std::vector<GltfNode>> nodes = nodesOf(file_, diagnosis_);
   if (!nodes) return nodes.error();
   nodes_ = std::move(*nodes);
+  nodeAt_ = nodesByIndex(file_, nodes_);
+  if (Status status = moveNear(); !status) return status;
   for (const GltfNode& node : nodes_) {
     const json& object = *element(document_, "nodes", node.index);
     if (const auto mesh = integer(object, "mesh"); mesh && !node.hidden) {
@@ -96,13 +103,27 @@ Status Loader::visitNodes() {
   return Status::ok();
 }
 
+/// A scene far from the origin is moved to it, in double.
+Status Loader::moveNear() {
+  Vec3d& origin = result_.loaded.scene.origin;
+  origin = originOf(document_);
+  if (options_.keepAllVertices) return Status::ok();  // it stands where its transfer does
+  const Result<Vec3d> far = farOriginOf(file_, nodes_);
+  if (!far) return far.error();
+  noteFarOrigin(*far, diagnosis_);
+  origin += *far;
+  nearFromFile_.col(3).head<3>() = -*far;
+  for (GltfNode& node : nodes_) node.worldFromNode.col(3).head<3>() -= *far;
+  return Status::ok();
+}
+
 /// Null: none, or one that is not whole.
 Result<const GltfSkin*> Loader::skinOf(const json& node) {
   if (find(node, "skin") == nullptr) return nullptr;
   const std::int64_t index = integer(node, "skin").value_or(-1);
   auto known = skins_.find(index);
   if (known == skins_.end()) {
-    Result<std::optional<GltfSkin>> skin = GltfSkin::of(file_, index, nodes_, diagnosis_);
+    Result<std::optional<GltfSkin>> skin = GltfSkin::of(file_, index, nodeAt_, diagnosis_);
     if (!skin) return skin.error();
     known = skins_.emplace(index, std::move(*skin)).first;
   }
@@ -165,7 +186,7 @@ Status Loader::placePrimitive(const GltfNode& node, std::span<const Mat4d> insta
   if (several) place += ", primitive " + std::to_string(origin.primitive);
   const std::int64_t mode = integer(primitive, "mode").value_or(4);
   if (mode < 4 || mode > 6) {
-    diagnosis_.add(Severity::Note, "no-triangles", 1, "primitives of points or lines were left out",
+    diagnosis_.lose(Severity::Note, "no-triangles", 1, "primitives of points or lines were left out",
                    place);
     return Status::ok();
   }
@@ -178,8 +199,8 @@ Status Loader::placePrimitive(const GltfNode& node, std::span<const Mat4d> insta
   if (several) read->name += fmt::format("/{}", origin.primitive);
   // A skinned mesh does not follow its node (§3.7.3.3): its joints hold it, or as modelled it
   // stands in world space.
-  const Mat4d world = Mat4d::Identity();
-  if (posed || find(nodeJson, "skin") != nullptr) instances = {&world, 1};
+  const Mat4d identity = Mat4d::Identity();
+  if (find(nodeJson, "skin") != nullptr) instances = {posed ? &identity : &nearFromFile_, 1};
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const std::string what = name_ + ": node " + std::to_string(node.index) + ", " + place;
     const std::uint64_t work =
@@ -187,7 +208,7 @@ Status Loader::placePrimitive(const GltfNode& node, std::span<const Mat4d> insta
     if (Status fits = file_.budget().work(work, what); !fits) return fits;
     Mesh mesh = i + 1 < instances.size() ? *read : std::move(*read);
     if (!instances[i].isIdentity(0.0)) {
-      mesh = scene::transformed(std::move(mesh), instances[i].cast<float>());
+      mesh = scene::transformed(std::move(mesh), instances[i]);
     }
     if (Status status = addMesh(std::move(mesh), origin, place); !status) return status;
   }
@@ -219,7 +240,7 @@ Status Loader::addMesh(Mesh mesh, LoadedGltf::Origin origin, const std::string& 
 void Loader::noteLosses() {
   noteExtensions(document_, diagnosis_);
   if (const std::size_t count = arraySize(find(document_, "animations")); count > 0) {
-    diagnosis_.add(Severity::Note, "animations-ignored", count,
+    diagnosis_.lose(Severity::Note, "animations-ignored", count,
                    "animations are not played: everything stands as its nodes say; to bake another "
                    "moment, pose the scene there and export it again");
   }
@@ -245,7 +266,7 @@ void Loader::placeCamera(const json& node, const Mat4d& world) {
   Mat4d rigid = world;
   rigid.topLeftCorner<3, 3>() << right, back.cross(right), back;
   if (!rigid.allFinite() || std::abs(rigid.determinant() - 1.0) > 1e-6) {
-    diagnosis_.add(Severity::Warning, "camera-ignored", 1,
+    diagnosis_.lose(Severity::Warning, "camera-ignored", 1,
                    "cameras have no valid transform and were left out", camera.name);
     return;
   }

@@ -106,14 +106,14 @@ Status GltfMaterials::readMaterial(const json& object, int index) {
     material.baseColorTexture = *texture;
   }
   if (find(object, "normalTexture") != nullptr) {
-    diagnosis_.add(Severity::Note, "normal-map-ignored", 1,
+    diagnosis_.lose(Severity::Note, "normal-map-ignored", 1,
                    "normal maps are ignored: transfer is baked on the mesh itself", place);
   }
   const Result<Rgb> emission = readEmission(object, place);
   if (!emission) return emission.error();
   material.emission = *emission;
   if (const std::string mode = text(&object, "alphaMode"); mode == "BLEND" || mode == "MASK") {
-    diagnosis_.add(Severity::Warning, "alpha-ignored", 1,
+    diagnosis_.lose(Severity::Warning, "alpha-ignored", 1,
                    "materials are (partly) transparent and are taken as opaque", place);
   }
   scene_.materials.push_back(std::move(material));
@@ -147,7 +147,7 @@ Status GltfMaterials::readMetallicRoughness(const json& object, const std::strin
   if (*picture != nullptr) {
     values.metallic *= (*picture)->meanChannels[2];
     values.roughness *= (*picture)->meanChannels[1];
-    diagnosis_.add(Severity::Note, "mean-metallic-roughness", 1,
+    diagnosis_.lose(Severity::Note, "mean-metallic-roughness", 1,
                    "metallic-roughness textures were replaced by their mean", place);
   }
   if (applyExtras(object, values, material)) return Status::ok();
@@ -188,7 +188,7 @@ Status GltfMaterials::readSpecularGlossiness(const json& extension, const std::s
   if (*gloss != nullptr) {
     values.specular *= (*gloss)->meanColor;
     values.glossiness *= (*gloss)->meanChannels[3];
-    diagnosis_.add(Severity::Note, "mean-specular-glossiness", 1,
+    diagnosis_.lose(Severity::Note, "mean-specular-glossiness", 1,
                    "specular-glossiness textures were replaced by their mean", place);
   }
   const Result<GltfPicture*> diffuse = pictureOf(info);
@@ -219,7 +219,7 @@ Result<Rgb> GltfMaterials::readEmission(const json& object, const std::string& p
     const auto picture = pictureOf(info);
     if (!picture) return picture.error();
     emission *= (*picture)->meanColor;
-    diagnosis_.add(Severity::Note, "mean-emission", 1,
+    diagnosis_.lose(Severity::Note, "mean-emission", 1,
                    "emissive textures were replaced by their mean", place);
   }
   return emission;
@@ -233,7 +233,7 @@ Result<int> GltfMaterials::readTexture(std::int64_t index) {
   GltfPicture& picture = **found;
   if (!picture.missing.empty()) {
     // A lost picture spoils the colours, not the transfer of light: say so and go on.
-    diagnosis_.add(Severity::Warning, "texture-unreadable", 1,
+    diagnosis_.lose(Severity::Warning, "texture-unreadable", 1,
                    "base-colour textures could not be read; the base-colour factor stands alone",
                    picture.missing);
     return -1;

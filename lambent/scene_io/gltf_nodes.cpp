@@ -135,11 +135,18 @@ Result<std::vector<GltfNode>> nodesOf(const GltfFile& file, Diagnosis& diagnosis
     }
   }
   if (hidden > 0) {
-    diagnosis.add(Severity::Note, "hidden-nodes", hidden,
+    diagnosis.lose(Severity::Note, "hidden-nodes", hidden,
                   "meshes are hidden by KHR_node_visibility and were left out: they keep no light "
                   "away; show them in the program that made the file if they should");
   }
   return placed;
+}
+
+std::vector<const GltfNode*> nodesByIndex(const GltfFile& file,
+                                          const std::vector<GltfNode>& nodes) {
+  std::vector<const GltfNode*> byIndex(arraySize(find(file.json(), "nodes")), nullptr);
+  for (const GltfNode& node : nodes) byIndex[std::size_t(node.index)] = &node;
+  return byIndex;
 }
 
 Result<std::vector<Matrix4d>> instancesOf(const GltfFile& file, const json& node,
@@ -170,13 +177,14 @@ Result<std::vector<Matrix4d>> instancesOf(const GltfFile& file, const json& node
     count = here;
   }
   if (!count) {
-    diagnosis.add(Severity::Warning, "instances-without-place", 1,
+    diagnosis.lose(Severity::Warning, "instances-without-place", 1,
                   "nodes have instances that stand nowhere; their mesh was taken once", place);
     return std::vector<Matrix4d>{Matrix4d::Identity()};
   }
   const std::uint64_t taken = std::uint64_t(*count) * sizeof(Matrix4d);
   if (Status fits = file.budget().hold(taken, place); !fits) return fits.error();
   file.budget().release(taken);  // gone when the node is done
+  if (Status fits = file.budget().work(taken, place); !fits) return fits.error();
   std::vector<Matrix4d> instances(*count);
   const auto vector = [&](const Part& part, std::size_t i, double otherwise) -> Vec3d {
     if (part.values.empty()) return Vec3d::Constant(otherwise);

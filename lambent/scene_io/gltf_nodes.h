@@ -24,6 +24,9 @@ struct GltfNode {
 /// w.
 Result<std::vector<GltfNode>> nodesOf(const GltfFile& file, Diagnosis& diagnosis);
 
+/// The same by their numbers in the file; null: not in the scene.
+std::vector<const GltfNode*> nodesByIndex(const GltfFile& file, const std::vector<GltfNode>& nodes);
+
 /// nodeFromInstance of every instance by EXT_mesh_gpu_instancing; the identity alone where a node
 /// has none.
 Result<std::vector<Eigen::Matrix4d>> instancesOf(const GltfFile& file, const nlohmann::json& node,

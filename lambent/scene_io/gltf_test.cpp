@@ -11,47 +11,12 @@
 #include "lambent/scene_io/gltf_material.h"
 #include "lambent/scene_io/gltf_read.h"
 #include "lambent/scene_io/test_files.h"
+#include "lambent/scene_io/test_gltf.h"
 
 namespace lambent::scene_io {
 namespace {
 
 using nlohmann::json;
-
-template <class T>
-std::span<const std::byte> asBytes(const std::vector<T>& values) {
-  return std::as_bytes(std::span<const T>(values));
-}
-
-/// A glTF document put together by hand: one mesh at node 0 unless a test says otherwise.
-struct Document {
-  GltfBuilder gltf{scene::Scene()};
-  json& j = gltf.json();
-
-  Document() {
-    j["scenes"] = json::parse(R"([{"nodes": [0]}])");
-    j["nodes"] = json::parse(R"([{"mesh": 0}])");
-    j["meshes"] = json::parse(R"([{"primitives": [{"attributes": {}}]}])");
-  }
-  json& primitive() { return j["meshes"][0]["primitives"][0]; }
-  template <class T>
-  void attribute(const char* name, const std::vector<T>& values, Component component,
-                 const char* type, std::size_t count, bool normalized = false) {
-    primitive()["attributes"][name] =
-        gltf.addAccessor(asBytes(values), component, type, count, normalized);
-  }
-  void positions(const std::vector<Vec3>& values) {
-    attribute("POSITION", values, Component::Float, "VEC3", values.size());
-  }
-  void indices(const std::vector<std::uint16_t>& values) {
-    primitive()["indices"] =
-        gltf.addAccessor(asBytes(values), Component::UnsignedShort, "SCALAR", values.size());
-  }
-  std::filesystem::path write(const TemporaryFolder& folder) const {
-    return folder.write("file.glb", *gltf.glb());
-  }
-};
-
-const std::vector<Vec3> kTriangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 scene::Scene richScene() {
   scene::Scene s;
@@ -178,7 +143,7 @@ TEST(Gltf, BrightEmissionGoesIntoTheStrength) {
   EXPECT_TRUE(lit->findings.empty());
 
   // A strength without a factor emits nothing; a factor alone is what it is.
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   d.j["materials"] = json::parse(R"([{"extensions": {"KHR_materials_emissive_strength":
       {"emissiveStrength": 5}}}, {"emissiveFactor": [0.5, 0, 0]},
@@ -195,7 +160,7 @@ TEST(Gltf, BrightEmissionGoesIntoTheStrength) {
 
 TEST(Gltf, NodeTransformsAndInstances) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   d.j["scenes"] = json::parse(R"([{"nodes": [9]}, {"nodes": [0]}])");
   d.j["scene"] = 1;
@@ -233,7 +198,7 @@ TEST(Gltf, StripsFansAndUnindexed) {
   const TemporaryFolder folder;
   const std::vector<Vec3> strip = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
   const auto triangles = [&](int mode, const std::vector<Vec3>& points) {
-    Document d;
+    GltfDocument d;
     d.positions(points);
     d.primitive()["mode"] = mode;
     const auto loaded = load(d.write(folder));
@@ -248,7 +213,7 @@ TEST(Gltf, StripsFansAndUnindexed) {
 
 TEST(Gltf, QuantizedAttributes) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.gltf.useExtension("KHR_mesh_quantization", true);
   // Elements of 8, 4 and 4 bytes: padded, as vertex attributes must be.
   const std::vector<std::int16_t> positions = {0, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0};
@@ -286,7 +251,7 @@ TEST(Gltf, QuantizedAttributes) {
 
 TEST(Gltf, SparseAccessors) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   const std::vector<std::uint8_t> places = {2};
   const std::vector<Vec3> values = {{0, 7, 0}};
@@ -303,7 +268,7 @@ TEST(Gltf, SparseAccessors) {
 
 TEST(Gltf, VertexColoursAndTextureTransform) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   d.attribute("COLOR_0", std::vector<std::uint8_t>{255, 0, 51, 255, 0, 0, 0, 9, 1, 2, 3, 4},
               Component::UnsignedByte, "VEC4", 3, true);
@@ -324,7 +289,7 @@ TEST(Gltf, VertexColoursAndTextureTransform) {
 
 TEST(Gltf, TextFormWithDataUriAndWithFileBeside) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   json j = d.j;
   std::string bytes(36, '\0');
@@ -354,7 +319,7 @@ TEST(Gltf, TextFormWithDataUriAndWithFileBeside) {
 
 TEST(Gltf, MaterialsThatFilesLeaveOut) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   const auto loaded = load(d.write(folder));
   ASSERT_TRUE(loaded);

@@ -14,7 +14,7 @@ namespace {
 struct Entry {
   std::string name;
   std::optional<Rgb> diffuse, specular;
-  std::optional<float> exponent, metallic, roughness;
+  std::optional<double> exponent, metallic, roughness;
   int illumination = 2;
   std::string diffuseMap;
   bool transparent = false;
@@ -24,7 +24,7 @@ std::optional<Rgb> color(TextCursor& cursor) {
   const auto r = cursor.number();
   if (!r) return {};
   const auto g = cursor.number(), b = cursor.number();
-  const Rgb c = g && b ? Rgb(*r, *g, *b) : Rgb(Rgb::Constant(*r));
+  const Rgb c = g && b ? Rgb(float(*r), float(*g), float(*b)) : Rgb(Rgb::Constant(float(*r)));
   return c.isFinite().all() ? std::optional<Rgb>(c.max(0.0f).min(1.0f)) : std::nullopt;
 }
 
@@ -58,8 +58,8 @@ scene::Material materialOf(const Entry& entry, bool hasMap, Diagnosis& diagnosis
   if (entry.metallic || entry.roughness) {
     MetallicRoughness pbr;
     pbr.baseColor = diffuse;
-    pbr.metallic = entry.metallic.value_or(0.0f);
-    pbr.roughness = entry.roughness.value_or(0.5f);
+    pbr.metallic = float(entry.metallic.value_or(0.0));
+    pbr.roughness = float(entry.roughness.value_or(0.5));
     applyMetallicRoughness(pbr, material);
     return material;
   }
@@ -80,7 +80,7 @@ scene::Material materialOf(const Entry& entry, bool hasMap, Diagnosis& diagnosis
     return material;
   }
   material.glossy = specular;
-  material.lobeExponent = std::clamp(entry.exponent.value_or(16.0f), 1.0f, 1e4f);
+  material.lobeExponent = float(std::clamp(entry.exponent.value_or(16.0), 1.0, 1e4));
   const float most = (material.diffuse + material.glossy).maxCoeff();
   if (most > 1.0f) {
     material.diffuse /= most;
@@ -160,15 +160,15 @@ Status readMtl(const std::filesystem::path& path, scene::Scene& scene,
     } else if (key == "Pr") {
       entry.roughness = cursor.number();
     } else if (key == "illum") {
-      const float value = cursor.number().value_or(2.0f);
-      entry.illumination = value >= 0.0f && value <= 10.0f ? int(value) : 2;
+      const double value = cursor.number().value_or(2.0);
+      entry.illumination = value >= 0.0 && value <= 10.0 ? int(value) : 2;
     } else if (key == "map_Kd") {
       entry.diffuseMap = mapName(cursor);
     } else if (key.starts_with("map_") || key == "bump" || key == "norm" || key == "disp" ||
                key == "decal" || key == "refl") {
       files.note(path.parent_path() / mapName(cursor));  // of no use to us, but the person's
     } else if (key == "d") {
-      entry.transparent = cursor.number().value_or(1.0f) < 0.999f;
+      entry.transparent = cursor.number().value_or(1.0) < 0.999;
     }
   }
   std::map<std::string, int> textures;

@@ -8,6 +8,7 @@
 
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/far_origin.h"
 #include "lambent/scene_io/linked_files.h"
 #include "lambent/scene_io/mesh_bytes.h"
 #include "lambent/scene_io/mtl.h"
@@ -61,12 +62,14 @@ class ObjReader {
   Part& part();
   Result<scene::Mesh> build(const Part& part, std::vector<std::uint32_t>& groups) const;
   int materialOf(const Part& part);
+  DoubleBox usedBox() const;
 
   std::filesystem::path path_;
   std::string name_;
   LinkedFiles files_;
   std::set<std::filesystem::path> libraries_;  ///< read already
-  std::vector<Vec3> positions_, normals_;
+  std::vector<Vec3d> positions_;
+  std::vector<Vec3> normals_;
   std::vector<Vec2> uvs_;
   std::vector<Rgb> colors_;  ///< as many as positions, or empty
   std::string object_, material_;
@@ -89,7 +92,7 @@ Part& ObjReader::part() {
 }
 
 Status ObjReader::readVertex(TextCursor& cursor) {
-  float values[7];
+  double values[7];
   int count = 0;
   while (count < 7) {
     const auto value = cursor.number();
@@ -102,9 +105,9 @@ Status ObjReader::readVertex(TextCursor& cursor) {
   positions_.emplace_back(values[0], values[1], values[2]);
   if (count >= 6) {
     colors_.resize(positions_.size() - 1, Rgb::Ones());
-    const float* c = values + (count == 7 ? 4 : 3);
-    colors_.push_back(Rgb(radiometry::srgbDecode(c[0]), radiometry::srgbDecode(c[1]),
-                          radiometry::srgbDecode(c[2])));
+    const double* c = values + (count == 7 ? 4 : 3);
+    colors_.push_back(Rgb(radiometry::srgbDecode(float(c[0])), radiometry::srgbDecode(float(c[1])),
+                          radiometry::srgbDecode(float(c[2]))));
   } else if (!colors_.empty()) {
     colors_.push_back(Rgb::Ones());
   }
@@ -195,12 +198,12 @@ Status ObjReader::readLines(std::string_view text) {
     } else if (key == "vn") {
       const auto x = cursor.number(), y = cursor.number(), z = cursor.number();
       if (!x || !y || !z) return bad(cursor.line(), "a normal needs three numbers");
-      normals_.emplace_back(*x, *y, *z);
+      normals_.emplace_back(float(*x), float(*y), float(*z));
     } else if (key == "vt") {
       const auto u = cursor.number(), v = cursor.number();
       if (!u) return bad(cursor.line(), "a texture coordinate needs a number");
       // OBJ counts v from the bottom of the image, glTF from its top.
-      uvs_.emplace_back(*u, 1.0f - v.value_or(0.0f));
+      uvs_.emplace_back(float(*u), 1.0f - float(v.value_or(0.0)));
     } else if (key == "f" || key == "fo") {
       status = readFace(cursor);
     } else if (key == "o") {
@@ -226,7 +229,7 @@ Result<scene::Mesh> ObjReader::build(const Part& part, std::vector<std::uint32_t
   scene::Mesh mesh;
   mesh.name = part.object;
   std::unordered_map<Corner, std::uint32_t, CornerHash> known;
-  std::vector<Vec3> polygon;
+  std::vector<Vec3d> polygon;
   std::vector<std::uint32_t> ids;
   std::vector<scene::Triangle> cut;
   bool anyUv = false, anyNormal = false;
@@ -261,7 +264,7 @@ Result<scene::Mesh> ObjReader::build(const Part& part, std::vector<std::uint32_t
       }
       const auto [entry, isNew] = known.try_emplace(corner, std::uint32_t(mesh.positions.size()));
       if (isNew) {
-        mesh.positions.push_back(positions_[corner.position]);
+        mesh.positions.push_back((positions_[corner.position] - scene_.origin).cast<float>());
         // Zero stands for "none here"; finishMesh makes a normal there.
         mesh.normals.push_back(corner.normal < 0 ? Vec3(Vec3::Zero()) : normals_[corner.normal]);
         mesh.uvs.push_back(corner.uv < 0 ? Vec2(Vec2::Zero()) : uvs_[corner.uv]);
@@ -280,6 +283,21 @@ Result<scene::Mesh> ObjReader::build(const Part& part, std::vector<std::uint32_t
   if (!anyUv) mesh.uvs.clear();
   if (!anyNormal) mesh.normals.clear();
   return mesh;
+}
+
+/// Of the positions that faces use. Indices that do not exist are build()'s to refuse.
+DoubleBox ObjReader::usedBox() const {
+  std::vector<bool> used(positions_.size());
+  for (const Part& part : parts_) {
+    for (const Corner& corner : part.corners) {
+      if (std::size_t(corner.position) < used.size()) used[std::size_t(corner.position)] = true;
+    }
+  }
+  DoubleBox box;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) box.extend(positions_[i]);
+  }
+  return box;
 }
 
 int ObjReader::materialOf(const Part& part) {
@@ -302,6 +320,8 @@ Result<LoadedScene> ObjReader::read() {
   const Result<std::vector<std::byte>> bytes = files_.readScene();
   if (!bytes) return bytes.error();
   if (Status status = readLines(asText(*bytes)); !status) return status.error();
+  scene_.origin = farOrigin(usedBox());
+  noteFarOrigin(scene_.origin, diagnosis_);
 
   for (const Part& part : parts_) {
     if (part.sizes.empty()) continue;

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <string>
 
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/far_origin.h"
 #include "lambent/scene_io/linked_files.h"
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/ply_header.h"
 #include "lambent/scene_io/polygon.h"
 #include "lambent/scene_io/text_cursor.h"
+#include "lambent/scene_io/text_number.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -47,16 +48,14 @@ class Body {
  private:
   double text() {
     while (at_ != end_ && static_cast<unsigned char>(*at_) <= ' ') ++at_;
-    if (at_ != end_ && *at_ == '+') ++at_;
-    double value = 0.0;
-    const auto [stop, error] = std::from_chars(at_, end_, value);
-    if (error == std::errc::invalid_argument) {
+    const std::optional<ParsedNumber> number = parseNumber(at_, end_);
+    if (!number) {
       ok_ = false;
       at_ = end_;
       return 0.0;
     }
-    at_ = stop;
-    return value;
+    at_ = number->end;
+    return number->value;
   }
 
   template <class T>
@@ -153,6 +152,8 @@ class PlyReader {
   /// The length of a list whose items still have to follow in the body.
   Result<std::size_t> listLength(const PlyElement& element, const PlyProperty& property,
                                  std::size_t index);
+  /// Makes the mesh's positions, far from the origin or not; returns what was subtracted.
+  Vec3d placePositions();
   /// Makes triangles of the corners in list_.
   Status addFace(const PlyElement& element, std::size_t index);
 
@@ -163,7 +164,8 @@ class PlyReader {
   LinkedFiles& files_;
   scene::Mesh mesh_;
   std::vector<double> list_;
-  std::vector<Vec3> polygon_;
+  std::vector<Vec3d> positions_;  ///< as the file says them
+  std::vector<Vec3d> polygon_;
   std::vector<scene::Triangle> cut_;
   Diagnosis diagnosis_;
 };
@@ -199,13 +201,13 @@ Status PlyReader::readVertices(const PlyElement& element) {
   const bool normals = has[int(Role::NX)] && has[int(Role::NY)] && has[int(Role::NZ)];
   const bool uvs = has[int(Role::U)] && has[int(Role::V)];
   const bool colors = has[int(Role::Red)] && has[int(Role::Green)] && has[int(Role::Blue)];
-  mesh_.positions.reserve(element.count);
+  positions_.reserve(element.count);
   if (normals) mesh_.normals.reserve(element.count);
   if (uvs) mesh_.uvs.reserve(element.count);
   if (colors) mesh_.colors.reserve(element.count);
 
   for (std::size_t i = 0; i < element.count; ++i) {
-    float values[12] = {};
+    double values[12] = {};
     for (std::size_t p = 0; p < roles.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       if (property.isList) {
@@ -213,12 +215,12 @@ Status PlyReader::readVertices(const PlyElement& element) {
         if (!length) return length.error();
         for (std::size_t k = 0; k < *length; ++k) body_.number(property.type);
       } else {
-        values[int(roles[p])] = float(body_.number(property.type));
+        values[int(roles[p])] = body_.number(property.type);
       }
     }
     if (!body_.ok()) return truncated(element, i);
-    const auto value = [&](Role role) { return values[int(role)]; };
-    mesh_.positions.emplace_back(value(Role::X), value(Role::Y), value(Role::Z));
+    positions_.emplace_back(values[int(Role::X)], values[int(Role::Y)], values[int(Role::Z)]);
+    const auto value = [&](Role role) { return float(values[int(role)]); };
     if (normals) mesh_.normals.emplace_back(value(Role::NX), value(Role::NY), value(Role::NZ));
     // As in OBJ, v counts from the bottom of the image.
     if (uvs) mesh_.uvs.emplace_back(value(Role::U), 1.0f - value(Role::V));
@@ -235,7 +237,7 @@ Status PlyReader::readVertices(const PlyElement& element) {
 Status PlyReader::addFace(const PlyElement& element, std::size_t index) {
   const bool strip = element.name == "tristrips";
   const auto face = [&] { return element.name + " " + std::to_string(index); };
-  const std::size_t vertices = mesh_.positions.size();
+  const std::size_t vertices = positions_.size();
   for (double item : list_) {
     if (strip && item == -1.0) continue;
     if (!(item >= 0.0) || item >= double(vertices)) {
@@ -267,7 +269,7 @@ Status PlyReader::addFace(const PlyElement& element, std::size_t index) {
     return Status::ok();
   }
   polygon_.clear(), cut_.clear();
-  for (std::size_t i = 0; i < list_.size(); ++i) polygon_.push_back(mesh_.positions[corner(i)]);
+  for (std::size_t i = 0; i < list_.size(); ++i) polygon_.push_back(positions_[corner(i)]);
   cutPolygon(polygon_, cut_);
   for (const auto& [a, b, c] : cut_) {
     mesh_.triangles.push_back({corner(a), corner(b), corner(c)});
@@ -329,6 +331,22 @@ Status PlyReader::skip(const PlyElement& element) {
   return Status::ok();
 }
 
+Vec3d PlyReader::placePositions() {
+  std::vector<bool> used(positions_.size());
+  for (const scene::Triangle& triangle : mesh_.triangles) {
+    for (std::uint32_t vertex : triangle) used[vertex] = true;
+  }
+  DoubleBox box;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) box.extend(positions_[i]);
+  }
+  const Vec3d origin = farOrigin(box);
+  noteFarOrigin(origin, diagnosis_);
+  mesh_.positions.reserve(positions_.size());
+  for (const Vec3d& p : positions_) mesh_.positions.push_back((p - origin).cast<float>());
+  return origin;
+}
+
 Result<LoadedScene> PlyReader::read() {
   bool hasVertices = false;
   for (const PlyElement& element : header_.elements) {
@@ -357,11 +375,11 @@ Result<LoadedScene> PlyReader::read() {
     if (!status) return status.error();
   }
   if (mesh_.triangles.empty()) {
-    return bad(mesh_.positions.empty()
-                   ? "holds no triangles"
-                   : "holds " + std::to_string(mesh_.positions.size()) +
-                         " points and no triangles; reconstruct a surface first");
+    return bad(positions_.empty() ? "holds no triangles"
+                                  : "holds " + std::to_string(positions_.size()) +
+                                        " points and no triangles; reconstruct a surface first");
   }
+  const Vec3d origin = placePositions();
   mesh_.name = path_.stem().string();
   FinishOptions finish;
   finish.front = Front::Normals;
@@ -373,6 +391,7 @@ Result<LoadedScene> PlyReader::read() {
   if (mesh_.triangles.empty()) return bad("all its triangles are without area");
 
   LoadedScene loaded;
+  loaded.scene.origin = origin;
   scene::Material material;
   const std::filesystem::path picture = path_.parent_path() / header_.textureFile;
   if (!header_.textureFile.empty()) files_.note(picture);

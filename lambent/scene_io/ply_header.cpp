@@ -48,7 +48,7 @@ std::size_t PlyElement::leastSize(bool ascii) const {
 }
 
 std::size_t PlyElement::sizeInMemory() const {
-  if (isVertices()) return sizeof(float) * properties.size();
+  if (isVertices()) return sizeof(float) * properties.size() + 3 * sizeof(double);
   return isFaces() ? sizeof(scene::Triangle) : 0;
 }
 

@@ -30,8 +30,8 @@ struct PlyElement {
 
   /// Bytes that one of them takes in the file at the very least.
   std::size_t leastSize(bool ascii) const;
-  /// Bytes that one of them takes in memory: a float for each property of a vertex, a triangle for a
-  /// face, nothing for what is skipped.
+  /// Bytes that one of them takes in memory: a float for each property of a vertex and its
+  /// position in double besides, a triangle for a face, nothing for what is skipped.
   std::size_t sizeInMemory() const;
   bool isVertices() const { return name == "vertex"; }
   bool isFaces() const { return name == "face" || name == "tristrips"; }

@@ -20,12 +20,12 @@ bool inside(const Vec2d& p, const Vec2d& a, const Vec2d& b, const Vec2d& c) {
 }
 
 /// The corners in a plane of their own, turning counter-clockwise; empty if they have no area.
-std::vector<Vec2d> flatten(std::span<const Vec3> corners) {
+std::vector<Vec2d> flatten(std::span<const Vec3d> corners) {
   Vec3d normal = Vec3d::Zero();  // Newell's: twice the area, along the polygon's mean normal
-  const Vec3d origin = corners[0].cast<double>();
+  const Vec3d origin = corners[0];
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec3d a = corners[i].cast<double>() - origin;
-    const Vec3d b = corners[(i + 1) % corners.size()].cast<double>() - origin;
+    const Vec3d a = corners[i] - origin;
+    const Vec3d b = corners[(i + 1) % corners.size()] - origin;
     normal += a.cross(b);
   }
   const double length = normal.norm();
@@ -33,8 +33,8 @@ std::vector<Vec2d> flatten(std::span<const Vec3> corners) {
   normal /= length;
   const Vec3d x = normal.unitOrthogonal(), y = normal.cross(x);
   std::vector<Vec2d> flat;
-  for (const Vec3& corner : corners) {
-    const Vec3d p = corner.cast<double>() - origin;
+  for (const Vec3d& corner : corners) {
+    const Vec3d p = corner - origin;
     flat.emplace_back(p.dot(x), p.dot(y));
   }
   return flat;
@@ -42,7 +42,7 @@ std::vector<Vec2d> flatten(std::span<const Vec3> corners) {
 
 }  // namespace
 
-void cutPolygon(std::span<const Vec3> corners, std::vector<scene::Triangle>& triangles) {
+void cutPolygon(std::span<const Vec3d> corners, std::vector<scene::Triangle>& triangles) {
   const auto count = std::uint32_t(corners.size());
   const auto fan = [&] {
     for (std::uint32_t i = 2; i < count; ++i) triangles.push_back({0, i - 1, i});
