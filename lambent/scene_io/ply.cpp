@@ -393,8 +393,10 @@ Result<LoadedScene> PlyReader::read() {
   LoadedScene loaded;
   loaded.scene.origin = origin;
   scene::Material material;
-  const std::filesystem::path picture = path_.parent_path() / header_.textureFile;
-  if (!header_.textureFile.empty()) files_.note(picture);
+  FileFinder finder(files_);
+  const std::filesystem::path folder = path_.parent_path();
+  const FileFinder::Found picture = finder.find(folder, header_.textureFile, folder);
+  if (!header_.textureFile.empty()) files_.note(picture.path);
   if (!header_.textureFile.empty() && !mesh_.uvs.empty()) {
     const Result<int> texture = readTextureFile(picture, loaded.scene, files_, diagnosis_);
     if (!texture) return texture.error();
