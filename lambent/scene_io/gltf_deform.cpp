@@ -64,10 +64,11 @@ Result<std::optional<GltfSkin>> GltfSkin::of(const GltfFile& file, std::int64_t 
   const json* skin = element(file.json(), "skins", index);
   const json* joints = find(skin, "joints");
   const auto ignored = [&](const std::string& why) {
-    diagnosis.lose(Severity::Warning, "skin-ignored", 1,
-                  "skins are not whole and were ignored: their meshes stand as they were modelled; "
-                  "export the file again, or apply its pose in a modelling program",
-                  "skin " + std::to_string(index) + " " + why);
+    diagnosis.lose(
+        Severity::Warning, "skin-ignored", 1,
+        "skins are not whole and were ignored: their meshes stand as they were modelled; "
+        "export the file again, or apply its pose in a modelling program",
+        "skin " + std::to_string(index) + " " + why);
     return std::optional<GltfSkin>();
   };
   if (arraySize(joints) == 0) return ignored("has no joints");

@@ -70,8 +70,7 @@ class AskingDecoder : public Decoder {
   bool askForCounts(draco::DecoderBuffer& ahead) {
     std::uint64_t points = 0, faces = 0;
     if constexpr (kEdgebreaker) {
-      std::uint8_t traversal = 0, withSeams = 0;
-      if (!ahead.Decode(&traversal)) return false;
+      std::uint8_t withSeams = 0;
       std::uint64_t added = 0;
       if (this->bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2) && !count(ahead, added)) {
         return false;

@@ -8,13 +8,16 @@
 namespace lambent::scene_io {
 namespace {
 
-using nlohmann::json;
 using Eigen::Matrix4d;
+using nlohmann::json;
 
 class Extent {
  public:
   Extent(const GltfFile& file, const std::vector<GltfNode>& nodes, bool stated)
-      : file_(file), document_(file.json()), nodes_(nodes), nodeAt_(nodesByIndex(file, nodes)),
+      : file_(file),
+        document_(file.json()),
+        nodes_(nodes),
+        nodeAt_(nodesByIndex(file, nodes)),
         stated_(stated) {}
 
   Result<DoubleBox> box() {
@@ -52,13 +55,13 @@ class Extent {
   }
 
   Result<DoubleBox> localBox(const json& primitive) {
-    const std::int64_t accessor =
-        integer(find(primitive, "attributes"), "POSITION").value_or(-1);
+    const std::int64_t accessor = integer(find(primitive, "attributes"), "POSITION").value_or(-1);
     const auto known = boxes_.find(accessor);
     if (known != boxes_.end()) return known->second;
     DoubleBox box;
     const json* object = element(document_, "accessors", accessor);
-    const bool packed = find(find(primitive, "extensions"), "KHR_draco_mesh_compression") != nullptr;
+    const bool packed =
+        find(find(primitive, "extensions"), "KHR_draco_mesh_compression") != nullptr;
     const auto lower = numbers(object, "min", 3), upper = numbers(object, "max", 3);
     const bool floats = integer(object, "componentType") == int(Component::Float);
     if (lower && upper && floats && (stated_ || packed)) {

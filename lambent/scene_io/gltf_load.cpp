@@ -66,8 +66,8 @@ class Loader {
   LoadedGltf result_;
   Diagnosis diagnosis_;
   std::vector<GltfNode> nodes_;
-  std::vector<const GltfNode*> nodeAt_;         ///< by number
-  Mat4d nearFromFile_ = Mat4d::Identity();      ///< a translation
+  std::vector<const GltfNode*> nodeAt_;     ///< by number
+  Mat4d nearFromFile_ = Mat4d::Identity();  ///< a translation
   std::map<std::int64_t, std::optional<GltfSkin>> skins_;
   std::optional<GltfMaterials> materials_;
   std::size_t triangles_ = 0;
@@ -95,7 +95,9 @@ Status Loader::visitNodes() {
   if (Status status = moveNear(); !status) return status;
   for (const GltfNode& node : nodes_) {
     const json& object = *element(document_, "nodes", node.index);
-    if (const auto mesh = integer(object, "mesh"); mesh && !node.hidden) {
+    // Who reads a baked asset shows all of it: its transfer knows of what is hidden.
+    const bool shown = !node.hidden || options_.keepAllVertices;
+    if (const auto mesh = integer(object, "mesh"); mesh && shown) {
       if (Status status = placeMesh(node, *mesh); !status) return status;
     }
     if (find(object, "camera") != nullptr) placeCamera(object, node.worldFromNode);
@@ -186,8 +188,8 @@ Status Loader::placePrimitive(const GltfNode& node, std::span<const Mat4d> insta
   if (several) place += ", primitive " + std::to_string(origin.primitive);
   const std::int64_t mode = integer(primitive, "mode").value_or(4);
   if (mode < 4 || mode > 6) {
-    diagnosis_.lose(Severity::Note, "no-triangles", 1, "primitives of points or lines were left out",
-                   place);
+    diagnosis_.lose(Severity::Note, "no-triangles", 1,
+                    "primitives of points or lines were left out", place);
     return Status::ok();
   }
   const Result<int> material = materials_->indexOf(primitive, place);
@@ -240,9 +242,10 @@ Status Loader::addMesh(Mesh mesh, LoadedGltf::Origin origin, const std::string& 
 void Loader::noteLosses() {
   noteExtensions(document_, diagnosis_);
   if (const std::size_t count = arraySize(find(document_, "animations")); count > 0) {
-    diagnosis_.lose(Severity::Note, "animations-ignored", count,
-                   "animations are not played: everything stands as its nodes say; to bake another "
-                   "moment, pose the scene there and export it again");
+    diagnosis_.lose(
+        Severity::Note, "animations-ignored", count,
+        "animations are not played: everything stands as its nodes say; to bake another "
+        "moment, pose the scene there and export it again");
   }
 }
 
@@ -267,7 +270,7 @@ void Loader::placeCamera(const json& node, const Mat4d& world) {
   rigid.topLeftCorner<3, 3>() << right, back.cross(right), back;
   if (!rigid.allFinite() || std::abs(rigid.determinant() - 1.0) > 1e-6) {
     diagnosis_.lose(Severity::Warning, "camera-ignored", 1,
-                   "cameras have no valid transform and were left out", camera.name);
+                    "cameras have no valid transform and were left out", camera.name);
     return;
   }
   // A rigid transform stays as it is, to the bit.

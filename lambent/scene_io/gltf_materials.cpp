@@ -107,14 +107,14 @@ Status GltfMaterials::readMaterial(const json& object, int index) {
   }
   if (find(object, "normalTexture") != nullptr) {
     diagnosis_.lose(Severity::Note, "normal-map-ignored", 1,
-                   "normal maps are ignored: transfer is baked on the mesh itself", place);
+                    "normal maps are ignored: transfer is baked on the mesh itself", place);
   }
   const Result<Rgb> emission = readEmission(object, place);
   if (!emission) return emission.error();
   material.emission = *emission;
   if (const std::string mode = text(&object, "alphaMode"); mode == "BLEND" || mode == "MASK") {
     diagnosis_.lose(Severity::Warning, "alpha-ignored", 1,
-                   "materials are (partly) transparent and are taken as opaque", place);
+                    "materials are (partly) transparent and are taken as opaque", place);
   }
   scene_.materials.push_back(std::move(material));
   return Status::ok();
@@ -148,7 +148,7 @@ Status GltfMaterials::readMetallicRoughness(const json& object, const std::strin
     values.metallic *= (*picture)->meanChannels[2];
     values.roughness *= (*picture)->meanChannels[1];
     diagnosis_.lose(Severity::Note, "mean-metallic-roughness", 1,
-                   "metallic-roughness textures were replaced by their mean", place);
+                    "metallic-roughness textures were replaced by their mean", place);
   }
   if (applyExtras(object, values, material)) return Status::ok();
   applyMetallicRoughness(values, material);
@@ -189,7 +189,7 @@ Status GltfMaterials::readSpecularGlossiness(const json& extension, const std::s
     values.specular *= (*gloss)->meanColor;
     values.glossiness *= (*gloss)->meanChannels[3];
     diagnosis_.lose(Severity::Note, "mean-specular-glossiness", 1,
-                   "specular-glossiness textures were replaced by their mean", place);
+                    "specular-glossiness textures were replaced by their mean", place);
   }
   const Result<GltfPicture*> diffuse = pictureOf(info);
   if (!diffuse) return diffuse.error();
@@ -220,7 +220,7 @@ Result<Rgb> GltfMaterials::readEmission(const json& object, const std::string& p
     if (!picture) return picture.error();
     emission *= (*picture)->meanColor;
     diagnosis_.lose(Severity::Note, "mean-emission", 1,
-                   "emissive textures were replaced by their mean", place);
+                    "emissive textures were replaced by their mean", place);
   }
   return emission;
 }
@@ -234,8 +234,8 @@ Result<int> GltfMaterials::readTexture(std::int64_t index) {
   if (!picture.missing.empty()) {
     // A lost picture spoils the colours, not the transfer of light: say so and go on.
     diagnosis_.lose(Severity::Warning, "texture-unreadable", 1,
-                   "base-colour textures could not be read; the base-colour factor stands alone",
-                   picture.missing);
+                    "base-colour textures could not be read; the base-colour factor stands alone",
+                    picture.missing);
     return -1;
   }
   const json* object = element(file_.json(), "textures", index);

@@ -136,8 +136,8 @@ Result<std::vector<GltfNode>> nodesOf(const GltfFile& file, Diagnosis& diagnosis
   }
   if (hidden > 0) {
     diagnosis.lose(Severity::Note, "hidden-nodes", hidden,
-                  "meshes are hidden by KHR_node_visibility and were left out: they keep no light "
-                  "away; show them in the program that made the file if they should");
+                   "meshes are hidden by KHR_node_visibility and were left out: they keep no light "
+                   "away; show them in the program that made the file if they should");
   }
   return placed;
 }
@@ -178,7 +178,7 @@ Result<std::vector<Matrix4d>> instancesOf(const GltfFile& file, const json& node
   }
   if (!count) {
     diagnosis.lose(Severity::Warning, "instances-without-place", 1,
-                  "nodes have instances that stand nowhere; their mesh was taken once", place);
+                   "nodes have instances that stand nowhere; their mesh was taken once", place);
     return std::vector<Matrix4d>{Matrix4d::Identity()};
   }
   const std::uint64_t taken = std::uint64_t(*count) * sizeof(Matrix4d);

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include "lambent/scene/camera.h"
@@ -315,6 +317,55 @@ TEST(Gltf, TextFormWithDataUriAndWithFileBeside) {
   expectBadInput(folder.write("e.gltf", j.dump()), {"not a regular file"});
   j["buffers"][0]["uri"] = "data:;base64,AAAA";
   expectBadInput(folder.write("f.gltf", j.dump()), {"buffer 0", "truncated"});
+}
+
+TEST(Gltf, UrisAsOtherMachinesWriteThem) {
+  const TemporaryFolder folder;
+  GltfDocument d;
+  d.positions(kTriangle);
+  json j = d.j;
+  std::string bytes(36, '\0');
+  std::memcpy(bytes.data(), kTriangle.data(), 36);
+  std::filesystem::create_directories(folder / "parts");
+  folder.write("parts/a 100% b.bin", std::string_view(bytes));
+  std::string escaped = "data:application/gltf-buffer,";
+  for (const char c : bytes) escaped += fmt::format("%{:02x}", static_cast<unsigned char>(c));
+  for (const std::string& uri :
+       {std::string("parts\\a 100% b.bin"), std::string("parts/A%20100%25%20B.BIN"),
+        std::string("./parts/a 100% b.bin"), escaped,
+        std::string("DATA:;base64,") + "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+        std::string("data:image/odd;charset=utf-8;BASE64,"
+                    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA")}) {
+    j["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
+    const auto loaded = load(folder.write("a.gltf", j.dump()));
+    ASSERT_TRUE(loaded) << uri << ": " << loaded.error().message;
+    EXPECT_EQ(loaded->scene.meshes[0].positions, kTriangle);
+  }
+  folder.write("beside.bin", std::string_view(bytes));
+  for (const char* uri : {"C:\\Users\\me\\beside.bin", "file:///C:/Users/me/beside.bin"}) {
+    j["buffers"][0]["uri"] = uri;
+    EXPECT_TRUE(load(folder.write("b.gltf", j.dump()))) << uri;
+  }
+  j["buffers"][0]["uri"] = "file:///etc/passwd";
+  expectBadInput(folder.write("c.gltf", j.dump()), {"outside of the scene's folder"});
+  j["buffers"][0]["uri"] = "data:nothing";
+  expectBadInput(folder.write("d.gltf", j.dump()), {"buffer 0", "no data"});
+}
+
+TEST(Gltf, SparseIndicesAndIndicesWithoutBytes) {
+  const TemporaryFolder folder;
+  GltfDocument d;
+  d.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+  d.indices({0, 1, 2, 0, 0, 0});
+  const std::vector<std::uint8_t> places = {3, 4, 5};
+  const std::vector<std::uint16_t> values = {1, 3, 2};
+  d.j["accessors"][1]["sparse"] = {
+      {"count", 3},
+      {"indices", {{"bufferView", d.gltf.addBufferView(asBytes(places))}, {"componentType", 5121}}},
+      {"values", {{"bufferView", d.gltf.addBufferView(asBytes(values))}}}};
+  const auto loaded = load(d.write(folder));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->scene.meshes[0].triangles.size(), 2u);
 }
 
 TEST(Gltf, MaterialsThatFilesLeaveOut) {
