@@ -93,6 +93,7 @@ Result<scene::Scene> SceneArguments::load(Console& console, NamedFiles& files) c
     scene = std::move(asset->scene);
   } else {
     scene_io::LoadOptions options = reading.forScene();
+    options.layout = layout;
     if (smooth) options.crease = float(*smooth * kPi / 180.0);
     auto loaded = console.stage("load", [&] { return scene_io::load(path, options); });
     if (!loaded) return loaded.error();

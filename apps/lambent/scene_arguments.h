@@ -23,6 +23,7 @@ struct SceneArguments {
   std::optional<double> lobeExponent;
   bool ground = false;           ///< a grey floor under the scene
   std::optional<double> smooth;  ///< degrees, of normals that the file does not give
+  bool layout = false;           ///< texture coordinates are for texels (see LoadOptions)
   ReadingArguments reading;      ///< for all files of the command
 
   void addTo(CLI::App& app);

@@ -164,6 +164,22 @@ TEST_F(GltfExtensions, TexturesInFormatsThatAreNotReadNameThem) {
   EXPECT_NE(findingOf(loaded.findings, "extension-KHR_texture_basisu"), nullptr);
 }
 
+TEST_F(GltfExtensions, TexelsTakeTheSecondSetWhereThereIsNoTexture) {
+  const std::vector<Vec2> second = {{0.1f, 0.2f}, {0.9f, 0.2f}, {0.1f, 0.7f}};
+  document_.attribute("TEXCOORD_1", second, Component::Float, "VEC2", 3);
+  with("{}");
+  auto loaded = load(folder_ / "file.glb", {.layout = true});
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->scene.meshes[0].uvs, second);
+  EXPECT_NE(load(folder_ / "file.glb")->scene.meshes[0].uvs, second);
+  texture({9, 99, 199});
+  with(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})");
+  loaded = load(folder_ / "file.glb", {.layout = true});
+  ASSERT_TRUE(loaded);
+  EXPECT_NE(loaded->scene.meshes[0].uvs, second);
+  EXPECT_EQ(countOf(loaded->findings, "layout-ignored"), 1u);
+}
+
 TEST_F(GltfExtensions, MadeNormalsAreFlatUnlessSmoothIsAskedFor) {
   document_.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   document_.primitive()["attributes"].erase("TEXCOORD_0");

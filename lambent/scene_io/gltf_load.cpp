@@ -54,6 +54,7 @@ class Loader {
                         const LoadedGltf::Origin& origin, const std::string& name, bool several);
   Result<Mesh> readPrimitive(const json& node, const json& mesh, const json& primitive,
                              const std::string& place, int material, bool& posed);
+  TextureUse uvsOf(const GltfPrimitive& source, int material, const std::string& place);
   Result<const GltfSkin*> skinOf(const json& node);
   Status addMesh(Mesh mesh, LoadedGltf::Origin origin, const std::string& place);
   void noteLosses();
@@ -132,12 +133,28 @@ Result<const GltfSkin*> Loader::skinOf(const json& node) {
   return known->second ? &*known->second : nullptr;
 }
 
+TextureUse Loader::uvsOf(const GltfPrimitive& source, int material, const std::string& place) {
+  TextureUse use = materials_->textureUse(material);
+  if (!options_.layout || !source.has("TEXCOORD_1")) return use;
+  if (result_.loaded.scene.materials[std::size_t(material)].baseColorTexture < 0) {
+    use = {};
+    use.texCoord = 1;
+  } else if (use.texCoord != 1) {
+    diagnosis_.lose(Severity::Note, "layout-ignored", 1,
+                    "meshes have a second set of texture coordinates, for light maps, which has no "
+                    "place beside that of their texture: texels lie where the texture does; bake "
+                    "vertices, or remove the texture",
+                    place);
+  }
+  return use;
+}
+
 /// `posed`: whether a skin has moved it into world space.
 Result<Mesh> Loader::readPrimitive(const json& node, const json& meshJson, const json& primitive,
                                    const std::string& place, int material, bool& posed) {
   const Result<GltfPrimitive> source = GltfPrimitive::open(file_, primitive, place);
   if (!source) return source.error();
-  Result<Mesh> mesh = source->mesh(materials_->textureUse(material));
+  Result<Mesh> mesh = source->mesh(uvsOf(*source, material, place));
   if (!mesh) return mesh;
   mesh->material = material;
   if (mesh->positions.empty()) return mesh;

@@ -23,6 +23,7 @@ class GltfPrimitive {
   static Result<GltfPrimitive> open(const GltfFile& file, const nlohmann::json& primitive,
                                     const std::string& place);
 
+  bool has(const std::string& attribute) const;
   /// Positions, normals if there are any, the texture coordinates of `use`, colours and triangles.
   /// Without positions it is empty: nothing to see, says the specification.
   Result<scene::Mesh> mesh(const TextureUse& use) const;
@@ -34,7 +35,6 @@ class GltfPrimitive {
   GltfPrimitive(const GltfFile& file, const nlohmann::json& primitive, const std::string& place)
       : file_(file), primitive_(primitive), place_(place) {}
   Error bad(const std::string& message) const;
-  bool has(const std::string& attribute) const;
   /// `count` × width numbers.
   Result<std::vector<float>> floats(const std::string& attribute, int width,
                                     std::size_t count) const;

@@ -90,6 +90,7 @@ struct GltfLoadOptions {
   bool keepAllVertices = false;
   /// Radians: normals that the file does not give are smooth across edges flatter than this.
   float crease = 0.0f;
+  bool layout = false;  ///< as of LoadOptions
 };
 Result<LoadedGltf> loadGltf(const GltfFile& file, const GltfLoadOptions& options = {});
 

@@ -31,6 +31,9 @@ struct LoadOptions {
   /// as the format has it, flat in glTF (a MUST of its specification, §3.7.2.1), smooth in OBJ and
   /// PLY.
   std::optional<float> crease = {};
+  /// Texture coordinates are for texels of transfer: where a glTF mesh has a second set, which by
+  /// custom is laid out without overlap for light maps, and no texture, it is taken.
+  bool layout = false;
 };
 
 /// By extension: .glb .gltf .obj .ply. A file that cannot be used is ErrorKind::BadInput whose
