@@ -90,12 +90,21 @@ FileFinder::Found FileFinder::find(const fs::path& folder, std::string_view name
     const fs::path other = withOtherCapitals(folder, clean);
     if (isFile(other)) return {other, true, false};
   }
-  const std::string own = clean.substr(clean.find_last_of("/:") + 1);
-  if (!own.empty()) {
-    for (const fs::path& place : {folder, beside}) {
-      const fs::path found = withOtherCapitals(place, own);
-      if (isFile(found) && files_.mayRead(found)) return {found, true, true};
+  for (std::size_t cut = clean.find_first_of("/:"); cut != std::string::npos;
+       cut = clean.find_first_of("/:", cut + 1)) {
+    const fs::path last = clean.substr(cut + 1);
+    if (last.empty() || last.is_absolute() ||
+        std::find(last.begin(), last.end(), "..") != last.end()) {
+      continue;
     }
+    for (const fs::path& place : {folder, beside}) {
+      const fs::path found = withOtherCapitals(place, last);
+      if (!found.empty() && isFile(found) && files_.mayRead(found)) return {found, true, true};
+    }
+  }
+  if (beside != folder) {
+    const fs::path found = withOtherCapitals(beside, clean);
+    if (!isOfAnotherMachine(clean) && isFile(found)) return {found, true, true};
   }
   // It may be there and out of bounds: the reader says so.
   return {said, isFile(said), false};

@@ -22,7 +22,7 @@ class FileFinder {
     bool elsewhere = false;  ///< it lies beside, and not where the name says
   };
   /// The file that `name` means in `folder`, tried in this sequence: the name; with other capitals;
-  /// the file's own name in `folder`, then in `beside`. Outside of the scene's folder only the first
+  /// its last parts ("textures/wood.png", "wood.png") in `folder`, then in `beside`. Outside of the scene's folder only the first
   /// is tried.
   Found find(const std::filesystem::path& folder, std::string_view name,
              const std::filesystem::path& beside);

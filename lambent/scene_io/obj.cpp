@@ -44,7 +44,7 @@ class ObjReader {
   /// A mesh with one vertex for each distinct corner. `groups` number the positions and what is
   /// smooth there: made normals are smooth across seams of the texture.
   Result<scene::Mesh> build(const ObjPart& part, const UvTransform& uv,
-                            std::vector<std::uint32_t>& groups) const;
+                            std::vector<std::uint32_t>& groups);
   Error noElement(const ObjPart& part, std::size_t face, const ObjCorner& corner) const;
   bool exists(const ObjCorner& corner) const;
   int materialOf(const ObjPart& part);
@@ -113,7 +113,7 @@ Error ObjReader::noElement(const ObjPart& part, std::size_t face, const ObjCorne
 }
 
 Result<scene::Mesh> ObjReader::build(const ObjPart& part, const UvTransform& uv,
-                                     std::vector<std::uint32_t>& groups) const {
+                                     std::vector<std::uint32_t>& groups) {
   scene::Mesh mesh;
   mesh.name = part.object;
   std::unordered_map<ObjCorner, std::uint32_t, CornerHash> known;
@@ -141,7 +141,7 @@ Result<scene::Mesh> ObjReader::build(const ObjPart& part, const UvTransform& uv,
     anyUv = anyUv || corner.uv >= 0;
     anyNormal = anyNormal || corner.normal >= 0;
   };
-  std::size_t first = 0;
+  std::size_t first = 0, crossing = 0;
   for (std::size_t face = 0; face < part.sizes.size(); ++face) {
     polygon.clear(), ids.clear(), cut.clear();
     for (std::size_t i = first; i < first + part.sizes[face]; ++i) {
@@ -153,9 +153,10 @@ Result<scene::Mesh> ObjReader::build(const ObjPart& part, const UvTransform& uv,
       polygon.push_back(text_.positions[std::size_t(corner.position)]);
     }
     first += part.sizes[face];
-    cutPolygon(polygon, cut);
+    crossing += !cutPolygon(polygon, cut);
     for (const auto& [a, b, c] : cut) mesh.triangles.push_back({ids[a], ids[b], ids[c]});
   }
+  noteCrossing(crossing, diagnosis_);
   if (!anyUv) mesh.uvs.clear();
   if (!anyNormal) mesh.normals.clear();
   return mesh;
