@@ -85,6 +85,7 @@ Status runBake(BakeRequest arguments, Console& console) {
   files.reads("SCENE", arguments.scene.path);
   if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
+  arguments.scene.layout = !arguments.texels.empty();
   auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
 
@@ -176,7 +177,8 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       ->group("Transfer");
   app->add_option("--texels", arguments->texels,
                   "Bake a mesh on a grid over its UVs instead of at its vertices; without MESH: "
-                  "every mesh with UVs. May be given several times")
+                  "every mesh with UVs. May be given several times. Of a glTF mesh without a "
+                  "texture the second set of UVs is taken, if it has one: that of light maps")
       ->option_text("[MESH=]WxH")
       ->check([](const std::string& text) -> std::string {
         const std::size_t equals = text.rfind('=');

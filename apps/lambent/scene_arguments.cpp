@@ -70,6 +70,11 @@ void SceneArguments::addTo(CLI::App& app) {
   app.add_flag("--ground", ground,
                "Put the scene on a grey floor, 1.6 times as wide, that takes shadows and light")
       ->group("Material");
+  addNumber(app, "--smooth", smooth, {0.0, 180.0},
+            "Where a file gives no normals, make them smooth across edges that bend by less, in "
+            "degrees (default: 0 for glTF, whose facets are flat, 180 for OBJ and PLY)")
+      ->option_text("DEGREES")
+      ->group("Reading");
   reading.addTo(app);
 }
 
@@ -87,9 +92,12 @@ Result<scene::Scene> SceneArguments::load(Console& console, NamedFiles& files) c
     if (!asset) return asset.error();
     scene = std::move(asset->scene);
   } else {
-    auto loaded = console.stage("load", [&] { return scene_io::load(path, reading.forScene()); });
+    scene_io::LoadOptions options = reading.forScene();
+    options.layout = layout;
+    if (smooth) options.crease = float(*smooth * kPi / 180.0);
+    auto loaded = console.stage("load", [&] { return scene_io::load(path, options); });
     if (!loaded) return loaded.error();
-    console.report(loaded->findings);
+    if (Status whole = console.accept(loaded->findings); !whole) return whole.error();
     scene = std::move(loaded->scene);
     files.readsFilesOf("SCENE", loaded->linkedFiles);
     if (Status distinct = files.check(); !distinct) return distinct.error();

@@ -21,8 +21,10 @@ struct SceneArguments {
   std::optional<MaterialKind> material;  ///< none: as the file says
   std::optional<Rgb> albedo;
   std::optional<double> lobeExponent;
-  bool ground = false;       ///< a grey floor under the scene
-  ReadingArguments reading;  ///< for all files of the command
+  bool ground = false;           ///< a grey floor under the scene
+  std::optional<double> smooth;  ///< degrees, of normals that the file does not give
+  bool layout = false;           ///< texture coordinates are for texels (see LoadOptions)
+  ReadingArguments reading;      ///< for all files of the command
 
   void addTo(CLI::App& app);
   /// Reads the scene (or the scene inside a baked asset) and reports what was odd in it.

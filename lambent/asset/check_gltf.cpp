@@ -25,6 +25,8 @@ using scene_io::integer;
 
 static_assert(std::endian::native == std::endian::little);
 
+const std::string kInstancing = "EXT_mesh_gpu_instancing", kDraco = "KHR_draco_mesh_compression";
+
 std::string text(std::int64_t value) {
   return std::to_string(value);
 }
@@ -167,6 +169,10 @@ Status GltfChecker::checkNode(const Visit& here) {
         return bad(place + ".skin",
                    "deforms a mesh with baked transfer: remove it, or bake the "
                    "deformed mesh");
+      if (find(find(node, "extensions"), kInstancing) != nullptr)
+        return bad(place + ".extensions." + kInstancing,
+                   "shows a mesh with baked transfer in places where it was not baked: bake the "
+                   "scene as it stands now");
       if (again)
         return bad(place + ".mesh", "shows a mesh with baked transfer that another node shows");
     }
@@ -201,6 +207,10 @@ Status GltfChecker::checkPrimitive(const json& primitive, const std::string& pla
       return bad(place + ".targets",
                  "morph targets deform a mesh with baked transfer: remove "
                  "them, or bake the deformed mesh");
+    if (find(find(primitive, "extensions"), kDraco) != nullptr)
+      return bad(place + ".extensions." + kDraco,
+                 "brings vertices into another sequence than their baked transfer has: leave "
+                 "the mesh uncompressed");
     for (const char* name : {"POSITION", "NORMAL"})
       if (find(attributes, name) == nullptr)
         return bad(place + ".attributes." + name, "is missing, and transfer stands on it");
@@ -212,8 +222,8 @@ Status GltfChecker::checkPrimitive(const json& primitive, const std::string& pla
     return Status::ok();  // nothing to see
   }
   anything_ = true;
-  if (find(find(primitive, "extensions"), "KHR_draco_mesh_compression") != nullptr)
-    return Status::ok();  // scene_io says what to do about it
+  if (find(find(primitive, "extensions"), kDraco) != nullptr)
+    return Status::ok();  // scene_io decodes and checks it
   std::optional<std::size_t> vertices;
   for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"})
     if (Status s = checkAttribute(*attributes, name, place + ".attributes." + name, vertices); !s)

@@ -11,8 +11,12 @@
 namespace lambent::scene {
 
 Mesh transformed(Mesh mesh, const Mat4& dstFromSrc) {
-  const Mat3d linear = dstFromSrc.topLeftCorner<3, 3>().cast<double>();
-  const Vec3d translation = dstFromSrc.topRightCorner<3, 1>().cast<double>();
+  return transformed(std::move(mesh), Eigen::Matrix4d(dstFromSrc.cast<double>()));
+}
+
+Mesh transformed(Mesh mesh, const Eigen::Matrix4d& dstFromSrc) {
+  const Mat3d linear = dstFromSrc.topLeftCorner<3, 3>();
+  const Vec3d translation = dstFromSrc.topRightCorner<3, 1>();
   const double determinant = linear.determinant();
   // The cofactor matrix is the inverse transpose times the determinant: it turns normals rightly
   // even where one axis is scaled to nothing. Its sign is the determinant's.

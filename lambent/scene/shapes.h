@@ -45,6 +45,7 @@ Mesh ring(float innerRadius, float outerRadius, float height, int segments, int 
 /// Positions by the matrix, normals by its inverse transpose; a reflection turns the winding over
 /// so that the front stays the front.
 Mesh transformed(Mesh mesh, const Mat4& dstFromSrc);
+Mesh transformed(Mesh mesh, const Eigen::Matrix4d& dstFromSrc);
 Mesh translated(Mesh mesh, const Vec3& offset);
 Mesh scaled(Mesh mesh, const Vec3& factors);
 Mesh rotated(Mesh mesh, const Vec3& axis, float radians);
@@ -66,5 +67,11 @@ std::uint32_t addTo(Scene& scene, Mesh mesh, Material material);
 /// without it each stands alone. Returns the number of vertices that no triangle of area gives a
 /// normal to; they get +Y.
 std::size_t computeNormals(Mesh& mesh, std::span<const std::uint32_t> groups = {});
+
+/// Sets normals as computeNormals does, but smooth only across edges between two triangles whose
+/// normals lie within `angle` (radians) of each other: with 0 every facet is flat. Vertices are
+/// split where they need several normals; the first keeps its number and others are appended.
+/// Positions that are equal are one place, whatever their UVs. Returns as computeNormals.
+std::size_t creaseNormals(Mesh& mesh, float angle);
 
 }  // namespace lambent::scene

@@ -105,17 +105,35 @@ std::size_t countOpposite(const std::vector<float>& agreements) {
       std::count_if(agreements.begin(), agreements.end(), [](float a) { return a < kOpposite; }));
 }
 
+void addNoSide(std::size_t without, const std::string& place, Diagnosis& diagnosis) {
+  if (without == 0) return;
+  diagnosis.add(Severity::Warning, "no-side", without,
+                "vertices have no triangle with a clear side; their made normal is +Y", place);
+}
+
 void makeNormals(Mesh& mesh, std::span<const std::uint32_t> groups, const std::string& place,
                  Diagnosis& diagnosis) {
-  if (const std::size_t without = scene::computeNormals(mesh, groups); without > 0) {
-    diagnosis.add(Severity::Warning, "no-side", without,
-                  "vertices have no triangle with a clear side; their made normal is +Y", place);
-  }
+  addNoSide(scene::computeNormals(mesh, groups), place, diagnosis);
+}
+
+void makeCreasedNormals(Mesh& mesh, float crease, const std::string& place, Diagnosis& diagnosis) {
+  const std::size_t count = mesh.positions.size();
+  addNoSide(scene::creaseNormals(mesh, crease), place, diagnosis);
+  diagnosis.add(Severity::Note, "normals-made", count,
+                crease > 0.0f ? "vertices had no normals; they were made, smooth where the surface "
+                                "bends by less than --smooth says"
+                              : "vertices had no normals; flat ones were made, as glTF demands: "
+                                "--smooth DEGREES rounds edges that bend by less",
+                place);
 }
 
 void finishNormals(Mesh& mesh, const FinishOptions& options, std::span<const std::uint32_t> groups,
                    const std::string& place, Diagnosis& diagnosis) {
   const std::size_t count = mesh.positions.size();
+  if (mesh.normals.size() != count && options.crease) {
+    makeCreasedNormals(mesh, *options.crease, place, diagnosis);
+    return;
+  }
   if (mesh.normals.size() != count) {
     makeNormals(mesh, groups, place, diagnosis);
     diagnosis.add(Severity::Note, "normals-made", count,
@@ -193,12 +211,19 @@ void Diagnosis::add(Severity severity, const std::string& code, std::uint64_t co
   if (!isNew) entry->second.count += count;
 }
 
+void Diagnosis::lose(Severity severity, const std::string& code, std::uint64_t count,
+                     const std::string& what, const std::string& place) {
+  add(severity, code, count, what, place);
+  entries_.at(code).loss = true;
+}
+
 Findings Diagnosis::findings() const {
   Findings findings;
   for (const auto& [code, entry] : entries_) {
-    std::string message = std::to_string(entry.count) + " " + entry.what;
+    std::string message = entry.count > 0 ? std::to_string(entry.count) + " " : std::string();
+    message += entry.what;
     if (!entry.place.empty()) message += " (first: " + entry.place + ")";
-    findings.push_back({entry.severity, code, std::move(message), entry.count});
+    findings.push_back({entry.severity, code, std::move(message), entry.count, entry.loss});
   }
   return findings;
 }
@@ -263,7 +288,9 @@ Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& f
     groups.assign(options.groups.begin(), options.groups.end());
     if (!options.keepAllVertices) compact(groups, oldFromNew);
   }
+  const std::size_t unsplit = mesh.positions.size();
   finishNormals(mesh, options, groups, place, diagnosis);
+  if (kept != nullptr && mesh.positions.size() != unsplit) *kept = false;
   finishAttributes(mesh, place, diagnosis);
   if (signedVolume(mesh) < 0.0 && scene::topology(mesh).insideOut()) {
     diagnosis.add(Severity::Warning, "inside-out", 1,

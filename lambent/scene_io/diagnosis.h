@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,10 +16,14 @@ namespace lambent::scene_io {
 /// place.
 class Diagnosis {
  public:
-  /// `what` completes "<count> …" ("degenerate triangles were kept out"); `place` is the first
-  /// place, and may be empty.
+  /// `what` completes "<count> …" ("degenerate triangles were kept out"), or with a count of 0
+  /// stands alone, for what concerns the whole file; `place` is the first place, and may be empty.
   void add(Severity severity, const std::string& code, std::uint64_t count, const std::string& what,
            const std::string& place = {});
+  /// The same for what the file says and the scene does not have. `what` says what was left out,
+  /// what that changes, and the remedy.
+  void lose(Severity severity, const std::string& code, std::uint64_t count,
+            const std::string& what, const std::string& place = {});
   Findings findings() const;
 
  private:
@@ -26,6 +31,7 @@ class Diagnosis {
     Severity severity;
     std::uint64_t count;
     std::string what, place;
+    bool loss = false;
   };
   std::map<std::string, Entry> entries_;
 };
@@ -40,7 +46,10 @@ struct FinishOptions {
   Front front = Front::Winding;
   /// Keep unused vertices and degenerate triangles (see GltfLoadOptions::keepAllVertices).
   bool keepAllVertices = false;
-  /// One per vertex: vertices of the same group share a made normal. Empty: each its own.
+  /// Radians: made normals are smooth across edges that bend by less, and vertices there are split.
+  /// Nothing: smooth everywhere, and no vertex is split.
+  std::optional<float> crease;
+  /// Without `crease`, one per vertex: vertices of the same group share a made normal. Empty: each its own.
   std::span<const std::uint32_t> groups;
 };
 

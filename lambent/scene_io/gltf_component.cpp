@@ -61,4 +61,15 @@ float toFloat(const std::byte* p, Component component, bool normalized) {
   return loadComponent<float>(p);
 }
 
+std::uint32_t toInteger(const std::byte* p, Component component, bool) {
+  switch (componentSize(component)) {
+    case 1:
+      return loadComponent<std::uint8_t>(p);
+    case 2:
+      return loadComponent<std::uint16_t>(p);
+    default:
+      return loadComponent<std::uint32_t>(p);
+  }
+}
+
 }  // namespace lambent::scene_io

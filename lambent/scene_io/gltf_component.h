@@ -28,5 +28,7 @@ T loadComponent(const std::byte* p) {
 
 /// One component as glTF reads it (§3.11 for normalized integers).
 float toFloat(const std::byte* p, Component component, bool normalized);
+/// One unsigned component as it is; signed ones and floats are taken by their bits.
+std::uint32_t toInteger(const std::byte* p, Component component, bool normalized);
 
 }  // namespace lambent::scene_io

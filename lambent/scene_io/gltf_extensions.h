@@ -1,15 +1,23 @@
-// The extensions of glTF that a file may require.
+// The extensions of glTF: which are read, and what it changes that another is not.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
+#include "lambent/scene_io/diagnosis.h"
+
 namespace lambent::scene_io {
 
-/// Those that Lambent reads, or can leave out without a wrong shape.
-bool isKnownExtension(std::string_view name);
+/// Whether a file may require it: it is read, or what is left without it is not of a wrong shape.
+bool mayBeRequired(std::string_view name);
 
 /// What to do about a file that requires another one.
-std::string remedyFor(const std::string& extension);
+std::string remedyFor(std::string_view extension);
+
+/// One finding for each extension that the document declares, or uses anywhere, and that is not
+/// read: how often it is used, what it changes, and the remedy. Its code is "extension-" and the
+/// name.
+void noteExtensions(const nlohmann::json& document, Diagnosis& diagnosis);
 
 }  // namespace lambent::scene_io

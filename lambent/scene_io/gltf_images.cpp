@@ -44,14 +44,35 @@ GltfImages::GltfImages(const GltfFile& file) : file_(file) {
     want(find(pbr, "baseColorTexture"), texelsWanted_);
     want(find(pbr, "metallicRoughnessTexture"), meansWanted_);
     want(find(material, "emissiveTexture"), meansWanted_);
+    const json* extensions = find(material, "extensions");
+    const json* specular = find(extensions, "KHR_materials_specular");
+    want(find(specular, "specularTexture"), meansWanted_);
+    want(find(specular, "specularColorTexture"), meansWanted_);
+    if (specular != nullptr || find(extensions, "KHR_materials_ior") != nullptr) {
+      want(find(pbr, "baseColorTexture"), meansWanted_);
+    }
+    const json* older = find(extensions, "KHR_materials_pbrSpecularGlossiness");
+    want(find(older, "diffuseTexture"), texelsWanted_);
+    want(find(older, "diffuseTexture"), meansWanted_);
+    want(find(older, "specularGlossinessTexture"), meansWanted_);
   }
 }
 
 std::int64_t GltfImages::sourceOf(std::int64_t texture) const {
   const json* object = element(file_.json(), "textures", texture);
   if (const auto source = integer(object, "source")) return *source;
-  const json* webp = find(find(object, "extensions"), "EXT_texture_webp");
-  return integer(webp, "source").value_or(-1);
+  return integer(find(find(object, "extensions"), formatOf(texture)), "source").value_or(-1);
+}
+
+std::string GltfImages::formatOf(std::int64_t texture) const {
+  const json* object = element(file_.json(), "textures", texture);
+  const json* extensions = find(object, "extensions");
+  if (integer(object, "source") || extensions == nullptr || !extensions->is_object()) return {};
+  if (extensions->contains("EXT_texture_webp")) return "EXT_texture_webp";
+  for (const auto& [name, format] : extensions->items()) {
+    if (integer(format, "source")) return name;
+  }
+  return {};
 }
 
 std::string GltfImages::keyOf(std::int64_t image) const {
@@ -66,7 +87,8 @@ Result<GltfPicture> GltfImages::read(std::int64_t image, const std::string& key)
   GltfPicture picture;
   const json* object = element(file_.json(), "images", image);
   if (object == nullptr) {
-    picture.missing = place + " does not exist";
+    picture.missing =
+        image < 0 ? file_.path().string() + ": a texture has no image" : place + " does not exist";
     return picture;
   }
   const std::string uri = text(object, "uri");
@@ -122,6 +144,9 @@ Result<GltfPicture*> GltfImages::pictureOf(std::int64_t texture) {
   if (known != pictures_.end()) return &known->second;
   Result<GltfPicture> picture = read(image, key);
   if (!picture) return picture.error();
+  if (const std::string format = formatOf(texture); !picture->missing.empty() && !format.empty()) {
+    picture->missing += " (" + format.substr(0, 100) + ")";
+  }
   return &pictures_.emplace(key, std::move(*picture)).first->second;
 }
 

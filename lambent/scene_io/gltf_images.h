@@ -25,7 +25,7 @@ class GltfImages {
  public:
   explicit GltfImages(const GltfFile& file);
 
-  /// The picture of `texture` (EXT_texture_webp only where there is no other). A picture that is
+  /// The picture of `texture` (by an extension only where it has no `source`). A picture that is
   /// damaged, too large for the file's budget or not to be read by the file's LoadOptions is an
   /// error.
   Result<GltfPicture*> pictureOf(std::int64_t texture);
@@ -34,6 +34,8 @@ class GltfImages {
 
  private:
   std::int64_t sourceOf(std::int64_t texture) const;
+  /// The extension that a texture without a `source` has its image by, or nothing.
+  std::string formatOf(std::int64_t texture) const;
   std::string keyOf(std::int64_t image) const;
   Result<GltfPicture> read(std::int64_t image, const std::string& key) const;
 

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-std::span<const std::byte> asBytes(const std::string& text) {
+std::span<const std::byte> pictureBytes(const std::string& text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
@@ -26,7 +26,7 @@ class GltfPictures : public testing::Test {
   }
   void picture(const std::string& bytes, const char* mimeType) {
     gltf_.json()["images"].push_back(
-        {{"bufferView", gltf_.addBufferView(asBytes(bytes))}, {"mimeType", mimeType}});
+        {{"bufferView", gltf_.addBufferView(pictureBytes(bytes))}, {"mimeType", mimeType}});
   }
   std::filesystem::path write() { return folder_.write("file.glb", *gltf_.glb()); }
 

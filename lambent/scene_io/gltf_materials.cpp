@@ -6,6 +6,7 @@
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_material.h"
+#include "lambent/scene_io/gltf_specular.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -89,44 +90,121 @@ Status GltfMaterials::readMaterial(const json& object, int index) {
   material.doubleSided = flag(&object, "doubleSided");
   const std::string place = "material " + std::to_string(index) +
                             (material.name.empty() ? "" : " \"" + material.name + "\"");
-  const json* pbr = find(object, "pbrMetallicRoughness");
-  MetallicRoughness values;
-  if (const auto factor = numbers(pbr, "baseColorFactor", 3)) {
-    values.baseColor = Rgb(float((*factor)[0]), float((*factor)[1]), float((*factor)[2]));
+  const json* extensions = find(object, "extensions");
+  const json* base = find(find(object, "pbrMetallicRoughness"), "baseColorTexture");
+  const json* older = find(extensions, "KHR_materials_pbrSpecularGlossiness");
+  if (older != nullptr) base = find(older, "diffuseTexture");
+  if (Status status = older != nullptr ? readSpecularGlossiness(*older, place, base, material)
+                                       : readMetallicRoughness(object, place, material);
+      !status) {
+    return status;
   }
-  values.metallic = number(pbr, "metallicFactor", 1.0);
-  values.roughness = number(pbr, "roughnessFactor", 1.0);
-  if (const json* info = find(pbr, "metallicRoughnessTexture")) {
-    const auto picture = images_.pictureOf(integer(info, "index").value_or(-1));
-    if (!picture) return picture.error();
-    values.metallic *= (*picture)->meanChannels[2];
-    values.roughness *= (*picture)->meanChannels[1];
-    diagnosis_.add(Severity::Note, "mean-metallic-roughness", 1,
-                   "metallic-roughness textures were replaced by their mean", place);
-  }
-  if (find(find(object, "extensions"), "KHR_materials_unlit") != nullptr && pbr == nullptr) {
-    values.metallic = 0.0;
-  }
-  if (!applyExtras(object, values, material)) applyMetallicRoughness(values, material);
-
-  if (const json* info = find(pbr, "baseColorTexture")) {
-    uses_[index] = textureUseOf(info);
-    const Result<int> texture = readTexture(integer(info, "index").value_or(-1));
+  if (base != nullptr) {
+    uses_[index] = textureUseOf(base);
+    const Result<int> texture = readTexture(integer(base, "index").value_or(-1));
     if (!texture) return texture.error();
     material.baseColorTexture = *texture;
   }
   if (find(object, "normalTexture") != nullptr) {
-    diagnosis_.add(Severity::Note, "normal-map-ignored", 1,
-                   "normal maps are ignored: transfer is baked on the mesh itself", place);
+    diagnosis_.lose(Severity::Note, "normal-map-ignored", 1,
+                    "normal maps are ignored: transfer is baked on the mesh itself", place);
   }
   const Result<Rgb> emission = readEmission(object, place);
   if (!emission) return emission.error();
   material.emission = *emission;
   if (const std::string mode = text(&object, "alphaMode"); mode == "BLEND" || mode == "MASK") {
-    diagnosis_.add(Severity::Warning, "alpha-ignored", 1,
-                   "materials are (partly) transparent and are taken as opaque", place);
+    diagnosis_.lose(Severity::Warning, "alpha-ignored", 1,
+                    "materials are (partly) transparent and are taken as opaque", place);
   }
   scene_.materials.push_back(std::move(material));
+  return Status::ok();
+}
+
+Result<GltfPicture*> GltfMaterials::pictureOf(const json* info) {
+  if (info == nullptr) return nullptr;
+  return images_.pictureOf(integer(info, "index").value_or(-1));
+}
+
+Status GltfMaterials::readMetallicRoughness(const json& object, const std::string& place,
+                                            scene::Material& material) {
+  const json* pbr = find(object, "pbrMetallicRoughness");
+  MetallicRoughness values;
+  values.baseColor = rgb(pbr, "baseColorFactor").value_or(Rgb::Ones());
+  if (find(find(object, "extensions"), "KHR_materials_unlit") != nullptr) {
+    diagnosis_.add(
+        Severity::Note, "unlit", 1,
+        "materials are unlit: their colour was taken as a diffuse reflectance, and light "
+        "that is painted into it is there twice",
+        place);
+    values.metallic = 0.0;
+    applyMetallicRoughness(values, material);
+    return Status::ok();
+  }
+  values.metallic = number(pbr, "metallicFactor", 1.0);
+  values.roughness = number(pbr, "roughnessFactor", 1.0);
+  const Result<GltfPicture*> picture = pictureOf(find(pbr, "metallicRoughnessTexture"));
+  if (!picture) return picture.error();
+  if (*picture != nullptr) {
+    values.metallic *= (*picture)->meanChannels[2];
+    values.roughness *= (*picture)->meanChannels[1];
+    diagnosis_.lose(Severity::Note, "mean-metallic-roughness", 1,
+                    "metallic-roughness textures were replaced by their mean", place);
+  }
+  if (applyExtras(object, values, material)) return Status::ok();
+  applyMetallicRoughness(values, material);
+  return addSpecular(object, 1.0 - std::clamp(values.metallic, 0.0, 1.0), values.roughness, place,
+                     material);
+}
+
+Status GltfMaterials::addSpecular(const json& object, double share, double roughness,
+                                  const std::string& place, scene::Material& material) {
+  const json* specular = find(find(object, "extensions"), "KHR_materials_specular");
+  const Result<GltfPicture*> strength = pictureOf(find(specular, "specularTexture"));
+  if (!strength) return strength.error();
+  const Result<GltfPicture*> color = pictureOf(find(specular, "specularColorTexture"));
+  if (!color) return color.error();
+  const Rgb glossy = glossyPart(
+      reflectanceAtNormal(object, *color != nullptr ? (*color)->meanColor : Rgb(Rgb::Ones()),
+                          *strength != nullptr ? (*strength)->meanChannels[3] : 1.0));
+  if (!(glossy.maxCoeff() > 0.0f) || !(share > 0.0)) return Status::ok();
+  const Result<GltfPicture*> base =
+      pictureOf(find(find(object, "pbrMetallicRoughness"), "baseColorTexture"));
+  if (!base) return base.error();
+  addGlossyPart(glossy, share, roughness, *base != nullptr ? (*base)->meanColor : Rgb(Rgb::Ones()),
+                material);
+  diagnosis_.add(
+      Severity::Note, "glossy-dielectric", 1,
+      "materials reflect more light than most do without being metals, and have a glossy "
+      "part for it, the same at every angle",
+      place);
+  return Status::ok();
+}
+
+Status GltfMaterials::readSpecularGlossiness(const json& extension, const std::string& place,
+                                             const json*& info, scene::Material& material) {
+  SpecularGlossiness values = specularGlossinessOf(extension);
+  const Result<GltfPicture*> gloss = pictureOf(find(extension, "specularGlossinessTexture"));
+  if (!gloss) return gloss.error();
+  if (*gloss != nullptr) {
+    values.specular *= (*gloss)->meanColor;
+    values.glossiness *= (*gloss)->meanChannels[3];
+    diagnosis_.lose(Severity::Note, "mean-specular-glossiness", 1,
+                    "specular-glossiness textures were replaced by their mean", place);
+  }
+  const Result<GltfPicture*> diffuse = pictureOf(info);
+  if (!diffuse) return diffuse.error();
+  Rgb mean = *diffuse != nullptr ? (*diffuse)->meanColor : Rgb(Rgb::Ones());
+  if (*diffuse != nullptr && isMostlySpecular(values, mean)) {
+    diagnosis_.add(
+        Severity::Note, "mean-diffuse", 1,
+        "materials are mostly specular: the texture of their diffuse part was replaced by "
+        "its mean",
+        place);
+    values.diffuse *= mean;
+    mean = Rgb::Ones();
+    info = nullptr;
+  }
+  applySpecularGlossiness(values, mean, material);
   return Status::ok();
 }
 
@@ -138,11 +216,11 @@ Result<Rgb> GltfMaterials::readEmission(const json& object, const std::string& p
   const json* strength = find(find(object, "extensions"), "KHR_materials_emissive_strength");
   emission *= float(std::clamp(number(strength, "emissiveStrength", 1.0), 0.0, 1e9));
   if (const json* info = find(object, "emissiveTexture")) {
-    const auto picture = images_.pictureOf(integer(info, "index").value_or(-1));
+    const auto picture = pictureOf(info);
     if (!picture) return picture.error();
     emission *= (*picture)->meanColor;
-    diagnosis_.add(Severity::Note, "mean-emission", 1,
-                   "emissive textures were replaced by their mean", place);
+    diagnosis_.lose(Severity::Note, "mean-emission", 1,
+                    "emissive textures were replaced by their mean", place);
   }
   return emission;
 }
@@ -155,9 +233,9 @@ Result<int> GltfMaterials::readTexture(std::int64_t index) {
   GltfPicture& picture = **found;
   if (!picture.missing.empty()) {
     // A lost picture spoils the colours, not the transfer of light: say so and go on.
-    diagnosis_.add(Severity::Warning, "texture-unreadable", 1,
-                   "base-colour textures could not be read; the base-colour factor stands alone",
-                   picture.missing);
+    diagnosis_.lose(Severity::Warning, "texture-unreadable", 1,
+                    "base-colour textures could not be read; the base-colour factor stands alone",
+                    picture.missing);
     return -1;
   }
   const json* object = element(file_.json(), "textures", index);

@@ -36,6 +36,15 @@ class GltfMaterials {
 
  private:
   Status readMaterial(const nlohmann::json& object, int index);
+  Status readMetallicRoughness(const nlohmann::json& object, const std::string& place,
+                               scene::Material& material);
+  /// `info`: the base-colour texture, or null where it is of no use.
+  Status readSpecularGlossiness(const nlohmann::json& extension, const std::string& place,
+                                const nlohmann::json*& info, scene::Material& material);
+  Status addSpecular(const nlohmann::json& object, double share, double roughness,
+                     const std::string& place, scene::Material& material);
+  /// The picture that `info` of a texture names, or null where it names none.
+  Result<GltfPicture*> pictureOf(const nlohmann::json* info);
   Result<Rgb> readEmission(const nlohmann::json& object, const std::string& place);
   /// The scene's texture for a glTF texture, or −1 and a Warning.
   Result<int> readTexture(std::int64_t texture);

@@ -59,6 +59,10 @@ class GltfFile {
   /// Any accessor as floats, count × componentCount, normalized integers scaled to [0, 1] or
   /// [−1, 1], sparse ones filled in.
   Result<std::vector<float>> accessorFloats(std::int64_t accessor, int componentCount) const;
+  /// Any accessor of whole numbers (indices, joints), as they are in the file.
+  Result<std::vector<std::uint32_t>> accessorIntegers(std::int64_t accessor,
+                                                      int componentCount) const;
+  /// The bytes of a buffer view, decompressed where they are (EXT_meshopt_compression).
   Result<std::span<const std::byte>> bufferViewBytes(std::int64_t bufferView) const;
 
   struct Impl;
@@ -84,6 +88,9 @@ struct GltfLoadOptions {
   /// Keep unused vertices and degenerate triangles, so that per-vertex data of an extension fits.
   /// For files that Lambent wrote itself.
   bool keepAllVertices = false;
+  /// Radians: normals that the file does not give are smooth across edges flatter than this.
+  float crease = 0.0f;
+  bool layout = false;  ///< as of LoadOptions
 };
 Result<LoadedGltf> loadGltf(const GltfFile& file, const GltfLoadOptions& options = {});
 

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
 #include "lambent/scene/camera.h"
@@ -11,47 +13,12 @@
 #include "lambent/scene_io/gltf_material.h"
 #include "lambent/scene_io/gltf_read.h"
 #include "lambent/scene_io/test_files.h"
+#include "lambent/scene_io/test_gltf.h"
 
 namespace lambent::scene_io {
 namespace {
 
 using nlohmann::json;
-
-template <class T>
-std::span<const std::byte> asBytes(const std::vector<T>& values) {
-  return std::as_bytes(std::span<const T>(values));
-}
-
-/// A glTF document put together by hand: one mesh at node 0 unless a test says otherwise.
-struct Document {
-  GltfBuilder gltf{scene::Scene()};
-  json& j = gltf.json();
-
-  Document() {
-    j["scenes"] = json::parse(R"([{"nodes": [0]}])");
-    j["nodes"] = json::parse(R"([{"mesh": 0}])");
-    j["meshes"] = json::parse(R"([{"primitives": [{"attributes": {}}]}])");
-  }
-  json& primitive() { return j["meshes"][0]["primitives"][0]; }
-  template <class T>
-  void attribute(const char* name, const std::vector<T>& values, Component component,
-                 const char* type, std::size_t count, bool normalized = false) {
-    primitive()["attributes"][name] =
-        gltf.addAccessor(asBytes(values), component, type, count, normalized);
-  }
-  void positions(const std::vector<Vec3>& values) {
-    attribute("POSITION", values, Component::Float, "VEC3", values.size());
-  }
-  void indices(const std::vector<std::uint16_t>& values) {
-    primitive()["indices"] =
-        gltf.addAccessor(asBytes(values), Component::UnsignedShort, "SCALAR", values.size());
-  }
-  std::filesystem::path write(const TemporaryFolder& folder) const {
-    return folder.write("file.glb", *gltf.glb());
-  }
-};
-
-const std::vector<Vec3> kTriangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 scene::Scene richScene() {
   scene::Scene s;
@@ -178,7 +145,7 @@ TEST(Gltf, BrightEmissionGoesIntoTheStrength) {
   EXPECT_TRUE(lit->findings.empty());
 
   // A strength without a factor emits nothing; a factor alone is what it is.
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   d.j["materials"] = json::parse(R"([{"extensions": {"KHR_materials_emissive_strength":
       {"emissiveStrength": 5}}}, {"emissiveFactor": [0.5, 0, 0]},
@@ -195,7 +162,7 @@ TEST(Gltf, BrightEmissionGoesIntoTheStrength) {
 
 TEST(Gltf, NodeTransformsAndInstances) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   d.j["scenes"] = json::parse(R"([{"nodes": [9]}, {"nodes": [0]}])");
   d.j["scene"] = 1;
@@ -233,7 +200,7 @@ TEST(Gltf, StripsFansAndUnindexed) {
   const TemporaryFolder folder;
   const std::vector<Vec3> strip = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
   const auto triangles = [&](int mode, const std::vector<Vec3>& points) {
-    Document d;
+    GltfDocument d;
     d.positions(points);
     d.primitive()["mode"] = mode;
     const auto loaded = load(d.write(folder));
@@ -248,7 +215,7 @@ TEST(Gltf, StripsFansAndUnindexed) {
 
 TEST(Gltf, QuantizedAttributes) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.gltf.useExtension("KHR_mesh_quantization", true);
   // Elements of 8, 4 and 4 bytes: padded, as vertex attributes must be.
   const std::vector<std::int16_t> positions = {0, 0, 0, 0, 32767, 0, 0, 0, 0, -32768, 0, 0};
@@ -286,7 +253,7 @@ TEST(Gltf, QuantizedAttributes) {
 
 TEST(Gltf, SparseAccessors) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   const std::vector<std::uint8_t> places = {2};
   const std::vector<Vec3> values = {{0, 7, 0}};
@@ -303,7 +270,7 @@ TEST(Gltf, SparseAccessors) {
 
 TEST(Gltf, VertexColoursAndTextureTransform) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   d.attribute("COLOR_0", std::vector<std::uint8_t>{255, 0, 51, 255, 0, 0, 0, 9, 1, 2, 3, 4},
               Component::UnsignedByte, "VEC4", 3, true);
@@ -324,7 +291,7 @@ TEST(Gltf, VertexColoursAndTextureTransform) {
 
 TEST(Gltf, TextFormWithDataUriAndWithFileBeside) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   json j = d.j;
   std::string bytes(36, '\0');
@@ -352,9 +319,58 @@ TEST(Gltf, TextFormWithDataUriAndWithFileBeside) {
   expectBadInput(folder.write("f.gltf", j.dump()), {"buffer 0", "truncated"});
 }
 
+TEST(Gltf, UrisAsOtherMachinesWriteThem) {
+  const TemporaryFolder folder;
+  GltfDocument d;
+  d.positions(kTriangle);
+  json j = d.j;
+  std::string bytes(36, '\0');
+  std::memcpy(bytes.data(), kTriangle.data(), 36);
+  std::filesystem::create_directories(folder / "parts");
+  folder.write("parts/a 100% b.bin", std::string_view(bytes));
+  std::string escaped = "data:application/gltf-buffer,";
+  for (const char c : bytes) escaped += fmt::format("%{:02x}", static_cast<unsigned char>(c));
+  for (const std::string& uri :
+       {std::string("parts\\a 100% b.bin"), std::string("parts/A%20100%25%20B.BIN"),
+        std::string("./parts/a 100% b.bin"), escaped,
+        std::string("DATA:;base64,") + "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA",
+        std::string("data:image/odd;charset=utf-8;BASE64,"
+                    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA")}) {
+    j["buffers"] = {{{"byteLength", 36}, {"uri", uri}}};
+    const auto loaded = load(folder.write("a.gltf", j.dump()));
+    ASSERT_TRUE(loaded) << uri << ": " << loaded.error().message;
+    EXPECT_EQ(loaded->scene.meshes[0].positions, kTriangle);
+  }
+  folder.write("beside.bin", std::string_view(bytes));
+  for (const char* uri : {"C:\\Users\\me\\beside.bin", "file:///C:/Users/me/beside.bin"}) {
+    j["buffers"][0]["uri"] = uri;
+    EXPECT_TRUE(load(folder.write("b.gltf", j.dump()))) << uri;
+  }
+  j["buffers"][0]["uri"] = "file:///etc/passwd";
+  expectBadInput(folder.write("c.gltf", j.dump()), {"outside of the scene's folder"});
+  j["buffers"][0]["uri"] = "data:nothing";
+  expectBadInput(folder.write("d.gltf", j.dump()), {"buffer 0", "no data"});
+}
+
+TEST(Gltf, SparseIndicesAndIndicesWithoutBytes) {
+  const TemporaryFolder folder;
+  GltfDocument d;
+  d.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+  d.indices({0, 1, 2, 0, 0, 0});
+  const std::vector<std::uint8_t> places = {3, 4, 5};
+  const std::vector<std::uint16_t> values = {1, 3, 2};
+  d.j["accessors"][1]["sparse"] = {
+      {"count", 3},
+      {"indices", {{"bufferView", d.gltf.addBufferView(asBytes(places))}, {"componentType", 5121}}},
+      {"values", {{"bufferView", d.gltf.addBufferView(asBytes(values))}}}};
+  const auto loaded = load(d.write(folder));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->scene.meshes[0].triangles.size(), 2u);
+}
+
 TEST(Gltf, MaterialsThatFilesLeaveOut) {
   const TemporaryFolder folder;
-  Document d;
+  GltfDocument d;
   d.positions(kTriangle);
   const auto loaded = load(d.write(folder));
   ASSERT_TRUE(loaded);

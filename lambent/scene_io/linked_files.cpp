@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/scene_io/file_finder.h"
 #include "lambent/scene_io/gltf_json.h"
 
 namespace lambent::scene_io {
@@ -32,6 +34,32 @@ std::string percentDecoded(std::string_view text) {
   }
   return out;
 }
+
+constexpr std::string_view kFileUri = "file://";
+
+bool isFileUri(std::string_view uri) {
+  return uri.starts_with(kFileUri);
+}
+
+bool isRemote(std::string_view uri) {
+  return uri.find("://") != std::string_view::npos && !isFileUri(uri);
+}
+
+bool equalInLowerCase(std::string_view text, std::string_view lower) {
+  return std::equal(text.begin(), text.end(), lower.begin(), lower.end(), [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == b;
+  });
+}
+
+/// "data:image/png;charset=utf-8;base64", in any capitals.
+bool endsWithBase64(std::string_view head) {
+  constexpr std::string_view kEnd = ";base64";
+  if (head.size() < kEnd.size()) return false;
+  return equalInLowerCase(head.substr(head.size() - kEnd.size()), kEnd);
+}
+
+/// A scene may name as many files that are not there as it likes; looking for one reads a folder.
+constexpr std::size_t kMostSearches = 1000;
 
 /// Links and ".." followed as far as there are files, from the root on.
 std::filesystem::path resolved(const std::filesystem::path& path, std::error_code& error) {
@@ -75,7 +103,8 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text) {
 }
 
 bool isDataUri(std::string_view uri) {
-  return uri.starts_with("data:");
+  constexpr std::string_view kScheme = "data:";
+  return uri.size() >= kScheme.size() && equalInLowerCase(uri.substr(0, kScheme.size()), kScheme);
 }
 
 Result<std::vector<std::byte>> LinkedFiles::readScene() {
@@ -103,16 +132,35 @@ Error LinkedFiles::outside(const std::string& what, const std::string& name) con
                           "with --allow-outside if you trust the scene");
 }
 
+std::filesystem::path LinkedFiles::pathOf(const std::string& uri) const {
+  const auto known = found_.find(uri);
+  if (known != found_.end()) return known->second;
+  const std::filesystem::path folder = scene_.parent_path();
+  const std::string local = isFileUri(uri) ? uri.substr(kFileUri.size()) : uri;
+  std::error_code error;
+  std::filesystem::path path = folder / percentDecoded(local);
+  if (!std::filesystem::exists(path, error) && found_.size() < kMostSearches) {
+    FileFinder finder(*this);
+    for (const std::string& name : {percentDecoded(local), local}) {
+      const FileFinder::Found found = finder.find(folder, name, folder);
+      if (!found.exists) continue;
+      path = found.path;
+      break;
+    }
+    found_.emplace(uri, path);
+  }
+  return path;
+}
+
 std::filesystem::path LinkedFiles::placeOf(const std::string& uri) const {
   std::error_code error;
-  const std::filesystem::path path = scene_.parent_path() / percentDecoded(uri);
+  const std::filesystem::path path = pathOf(uri);
   const std::filesystem::path whole = resolved(path, error);
   return error ? path : whole;
 }
 
 bool LinkedFiles::mayReadUri(const std::string& uri) const {
-  if (isDataUri(uri) || uri.find("://") != std::string::npos) return true;
-  return mayRead(scene_.parent_path() / percentDecoded(uri));
+  return isDataUri(uri) || isRemote(uri) || mayRead(pathOf(uri));
 }
 
 void LinkedFiles::noteGltf(const nlohmann::json& document) {
@@ -120,9 +168,7 @@ void LinkedFiles::noteGltf(const nlohmann::json& document) {
     const nlohmann::json* all = find(document, kind);
     for (std::size_t i = 0; i < arraySize(all); ++i) {
       const std::string uri = text(&(*all)[i], "uri");
-      if (!uri.empty() && !isDataUri(uri) && uri.find("://") == std::string::npos) {
-        note(scene_.parent_path() / percentDecoded(uri));
-      }
+      if (!uri.empty() && !isDataUri(uri) && !isRemote(uri)) note(pathOf(uri));
     }
   }
 }
@@ -142,10 +188,14 @@ Result<std::vector<std::byte>> LinkedFiles::readUri(const std::string& uri,
   const std::string file = scene_.string();
   if (isDataUri(uri)) {
     const std::size_t comma = uri.find(',');
-    const std::string_view head = std::string_view(uri).substr(0, std::min(comma, uri.size()));
-    if (comma == std::string::npos || !head.ends_with(";base64")) {
+    if (comma == std::string::npos) {
       return report::badInput(file + ": the data URI of " + what +
-                              " is not base64; export the file again");
+                              " holds no data; export the file again");
+    }
+    if (!endsWithBase64(std::string_view(uri).substr(0, comma))) {
+      const std::string plain = percentDecoded(std::string_view(uri).substr(comma + 1));
+      const auto bytes = std::as_bytes(std::span(plain.data(), plain.size()));
+      return std::vector<std::byte>(bytes.begin(), bytes.end());
     }
     auto bytes = decodeBase64(std::string_view(uri).substr(comma + 1));
     if (!bytes) {
@@ -154,12 +204,12 @@ Result<std::vector<std::byte>> LinkedFiles::readUri(const std::string& uri,
     }
     return std::move(*bytes);
   }
-  if (uri.find("://") != std::string::npos) {
+  if (isRemote(uri)) {
     return report::badInput(file + ": " + what + " is at " + uri.substr(0, 200) +
                             "; Lambent reads no network: download it beside the file");
   }
   if (!mayReadUri(uri)) return outside(what, uri);
-  const std::filesystem::path path = scene_.parent_path() / percentDecoded(uri);
+  const std::filesystem::path path = pathOf(uri);
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (error || !std::filesystem::exists(status)) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -28,6 +29,7 @@ class LinkedFiles {
   LinkedFiles(const std::filesystem::path& scene, const LoadOptions& options)
       : scene_(scene), options_(options), budget_(options.memoryLimit) {}
 
+  const LoadOptions& options() const { return options_; }
   /// What reading the scene costs, with all the files that it names.
   file::Budget& budget() { return budget_; }
 
@@ -57,10 +59,15 @@ class LinkedFiles {
   Result<std::vector<std::byte>> read(const std::filesystem::path& path);
 
  private:
+  /// The file that a URI means, which may not exist: as it says, or as FileFinder finds it where
+  /// its writer thought of another machine.
+  std::filesystem::path pathOf(const std::string& uri) const;
+
   std::filesystem::path scene_;
   LoadOptions options_;
   file::Budget budget_;
   std::set<std::filesystem::path> noted_;
+  mutable std::map<std::string, std::filesystem::path> found_;  ///< what was looked for, by URI
 };
 
 }  // namespace lambent::scene_io

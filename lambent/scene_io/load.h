@@ -26,7 +26,14 @@ struct LoadOptions {
   bool allowOutside = false;
   /// Bytes that reading may take, textures and geometry together; nothing: as much as files of that
   /// size may need (see file/budget.h).
-  std::optional<std::uint64_t> memoryLimit;
+  std::optional<std::uint64_t> memoryLimit = {};
+  /// Radians: normals that a file does not give are smooth across edges that bend by less. Nothing:
+  /// as the format has it, flat in glTF (a MUST of its specification, §3.7.2.1), smooth in OBJ and
+  /// PLY.
+  std::optional<float> crease = {};
+  /// Texture coordinates are for texels of transfer: where a glTF mesh has a second set, which by
+  /// custom is laid out without overlap for light maps, and no texture, it is taken.
+  bool layout = false;
 };
 
 /// By extension: .glb .gltf .obj .ply. A file that cannot be used is ErrorKind::BadInput whose

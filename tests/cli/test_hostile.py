@@ -273,3 +273,57 @@ class Hostile(ToolTest):
         self.run_cheaply("info", "ball.glb", "--memory-limit", "1KiB",
                          says=["ball.glb", "over the limit of 1.0 KiB"])
         self.run_cheaply("info", "ball.glb", "--memory-limit", "1MiB", code=DONE)
+
+    def test_instances_by_the_million(self):
+        document, buffer = gltf_parts(*ball())
+        document["accessors"].append({"componentType": 5126, "type": "VEC3", "count": 4000000})
+        node = document["nodes"][0]
+        node["extensions"] = {"EXT_mesh_gpu_instancing": {
+            "attributes": {"TRANSLATION": len(document["accessors"]) - 1}}}
+        self.write("a.glb", glb(document, buffer))
+        self.run_cheaply("info", "a.glb", says=["a.glb: node 0", "over the limit"])
+        # Many nodes, each with many instances of a mesh without anything to see.
+        document["meshes"].append({"primitives": []})
+        document["accessors"][-1]["count"] = 100000
+        document["nodes"] += [dict(node, mesh=1) for _ in range(3000)]
+        node.pop("extensions")
+        document["scenes"][0]["nodes"] = list(range(len(document["nodes"])))
+        self.write("b.glb", glb(document, buffer))
+        self.run_cheaply("info", "b.glb", says=["b.glb: node", "over the limit"])
+
+    def test_compressed_streams_that_claim_too_much(self):
+        counts = b"\xff\xff\xff\xff\x07" * 2
+        for method, head in ((0, b""), (1, b"\0")):
+            document, buffer = gltf_parts(*ball())
+            stream = b"DRACO\2\2\1" + bytes([method]) + b"\0\0" + head + counts + bytes(200)
+            view = len(document["bufferViews"])
+            document["bufferViews"].append(
+                {"buffer": 0, "byteOffset": len(buffer), "byteLength": len(stream)})
+            document["buffers"][0]["byteLength"] = len(buffer) + len(stream)
+            document["meshes"][0]["primitives"][0]["extensions"] = {
+                "KHR_draco_mesh_compression": {"bufferView": view, "attributes": {"POSITION": 0}}}
+            self.write("a.glb", glb(document, buffer + stream))
+            self.run_cheaply("info", "a.glb", says=["a.glb: mesh", "over the limit"])
+        document, buffer = gltf_parts(*ball())
+        for view in document["bufferViews"]:
+            whole = dict(view)
+            view.update(buffer=1, extensions={"EXT_meshopt_compression": dict(
+                whole, count=2000000000, byteStride=16, mode="ATTRIBUTES")})
+        document["buffers"].append(
+            {"byteLength": 1, "extensions": {"EXT_meshopt_compression": {"fallback": True}}})
+        self.write("a.glb", glb(document, buffer))
+        self.run_cheaply("info", "a.glb", says=["a.glb: bufferView", "cannot come out of"])
+
+    def test_cycles_through_extensions_and_skins(self):
+        document, buffer = gltf_parts(*ball())
+        document["skins"] = [{"joints": [0] * 1000} for _ in range(2000)]
+        document["nodes"] += [{"mesh": 0, "skin": i} for i in range(2000)]
+        document["scenes"][0]["nodes"] = list(range(1, 2001))
+        self.write("a.glb", glb(document, buffer))
+        self.run_cheaply("info", "a.glb", code=DONE)
+        document, buffer = gltf_parts(*ball())
+        document["nodes"][0].update(children=[1])
+        document["nodes"].append({"children": [0], "extensions": {
+            "KHR_node_visibility": {"visible": False}, "EXT_mesh_gpu_instancing": {}}})
+        self.write("a.glb", glb(document, buffer))
+        self.run_cheaply("info", "a.glb", says=["a.glb: node 0", "twice"])

@@ -15,6 +15,8 @@
 #include "lambent/asset/rtt_file.h"
 #include "lambent/image/io.h"
 #include "lambent/image/test_codecs.h"
+#include "lambent/scene/shapes.h"
+#include "lambent/scene_io/test_compressed.h"
 #include "lambent/transfer/encode.h"
 
 namespace {
@@ -146,6 +148,24 @@ void rtts(const Path& folder) {
   }
 }
 
+/// Compressed by Draco and by meshoptimizer.
+void gltfs(const Path& folder) {
+  std::filesystem::create_directories(folder);
+  const scene::Mesh mesh = scene::box(Vec3::Ones(), 1);
+  for (const auto& [method, name] :
+       {std::pair(draco::MESH_SEQUENTIAL_ENCODING, "draco_sequential.glb"),
+        std::pair(draco::MESH_EDGEBREAKER_ENCODING, "draco_edgebreaker.glb")}) {
+    scene_io::GltfDocument d;
+    scene_io::addDraco(d, scene_io::dracoOf(mesh, method), mesh.positions.size(),
+                       mesh.triangles.size());
+    const std::vector<std::byte> glb = *d.gltf.glb();
+    save(folder / name, {reinterpret_cast<const char*>(glb.data()), glb.size()});
+  }
+  scene_io::MeshoptDocument packed;
+  packed.addMesh(mesh);
+  packed.write(folder / "meshopt.gltf");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -159,6 +179,7 @@ int main(int argc, char** argv) {
   webps(folder / "webp");
   exrs(folder / "exr");
   rtts(folder / "rtt");
+  gltfs(folder / "gltf");
   std::filesystem::create_directories(folder / "hdr");
   (void)image::write(pictureOf(16, 8), folder / "hdr" / "runs.hdr");
   (void)image::write(pictureOf(4, 2), folder / "hdr" / "narrow.hdr");

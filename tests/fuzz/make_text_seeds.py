@@ -146,6 +146,50 @@ def sparse():
     return g
 
 
+def deformed():
+    """Instances, a hidden node, a skin and morph targets."""
+    g = plain()
+    primitive = g.document["meshes"][0]["primitives"][0]
+    primitive["attributes"].update(
+        JOINTS_0=g.accessor(bytes([0, 1, 0, 0] * 4), 5121, "VEC4", 4),
+        WEIGHTS_0=g.accessor(bytes([200, 55, 0, 0] * 4), 5121, "VEC4", 4, normalized=True))
+    primitive["targets"] = [{"POSITION": g.floats([(0, 0, 0.5)] * 4)}]
+    g.document["meshes"][0]["weights"] = [0.5]
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1] * 2
+    bind = g.accessor(struct.pack("<32f", *identity), 5126, "MAT4", 2)
+    g.document["skins"] = [{"joints": [2, 3], "inverseBindMatrices": bind}]
+    g.document["nodes"] = [
+        {"mesh": 0, "skin": 0},
+        {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {
+            "TRANSLATION": g.floats([(0, 3, 0), (0, 5, 0)]),
+            "ROTATION": g.floats([(0, 0, 0, 1), (0, 1, 0, 0)]),
+            "SCALE": g.floats([(1, 1, 1), (-1, 2, 1)])}}}},
+        {"translation": [0, 1, 0], "children": [3]}, {"rotation": [0, 0, 0.6, 0.8]},
+        {"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}]
+    g.document["scenes"] = [{"nodes": [0, 1, 2, 4]}]
+    g.document["extensionsUsed"] = ["EXT_mesh_gpu_instancing", "KHR_node_visibility"]
+    return g
+
+
+def materials():
+    """What extensions say about materials."""
+    g = textured()
+    g.document["materials"] += [
+        {"extensions": {"KHR_materials_unlit": {}}},
+        {"extensions": {"KHR_materials_ior": {"ior": 2.4}, "KHR_materials_specular": {
+            "specularFactor": 0.9, "specularColorFactor": [1, 0.5, 0.2],
+            "specularTexture": {"index": 1}, "specularColorTexture": {"index": 0}}}},
+        {"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [0.5, 0.5, 0.5, 1], "diffuseTexture": {"index": 0},
+            "specularFactor": [0.3, 0.3, 0.3], "glossinessFactor": 0.7,
+            "specularGlossinessTexture": {"index": 1}}}},
+        {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}}]
+    primitives = g.document["meshes"][0]["primitives"]
+    primitives += [dict(primitives[0], material=i) for i in range(2, 6)]
+    g.document["extensionsUsed"] = ["KHR_materials_unlit", "KHR_materials_transmission"]
+    return g
+
+
 OBJ = {
     "cube.obj": """# a cube without its lid
 mtllib scene.mtl
@@ -264,7 +308,7 @@ def main():
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
 
-    for made in (plain, textured, nodes, sparse):
+    for made in (plain, textured, nodes, sparse, deformed, materials):
         save(f"gltf/{made.__name__}.glb", made().glb())
     save("gltf/plain.gltf", plain().gltf())
     save("gltf/textured.gltf", textured().gltf())

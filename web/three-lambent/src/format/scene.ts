@@ -18,6 +18,7 @@ export interface Carrier {
 }
 
 const kDraco = "KHR_draco_mesh_compression";
+const kInstancing = "EXT_mesh_gpu_instancing";
 
 const kIdentity = {
   matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
@@ -106,6 +107,11 @@ function shownMeshes(json: Json): Set<number> {
             "skin",
             "deforms a mesh with baked transfer: remove it, or bake the deformed mesh",
           );
+        if (memberOf(node.has("extensions") && node.raw("extensions"), kInstancing) !== undefined)
+          fail(
+            `${place}.extensions.${kInstancing}`,
+            "shows a mesh with baked transfer in places where it was not baked: bake the scene as it stands now",
+          );
         if (shown.has(index))
           node.fail("mesh", "shows a mesh with baked transfer that another node shows");
       }
@@ -123,6 +129,8 @@ async function checkPrimitive(
   accessors: AccessorReader,
 ): Promise<Pick<Carrier, "vertices" | "normals"> | null> {
   const mode = primitive.has("mode") ? primitive.raw("mode") : 4;
+  const compressed =
+    memberOf(primitive.has("extensions") && primitive.raw("extensions"), kDraco) !== undefined;
   const attributes =
     transfer || primitive.has("attributes") ? primitive.object("attributes") : null;
   if (transfer && attributes) {
@@ -133,6 +141,11 @@ async function checkPrimitive(
         "targets",
         "morph targets deform a mesh with baked transfer: remove them, or bake the deformed mesh",
       );
+    if (compressed)
+      primitive.fail(
+        `extensions.${kDraco}`,
+        "brings vertices into another sequence than their baked transfer has: leave the mesh uncompressed",
+      );
     for (const name of ["POSITION", "NORMAL"])
       if (!attributes.has(name)) attributes.fail(name, "is missing, and transfer stands on it");
     for (const needs of ["grid", "biScale"])
@@ -141,8 +154,6 @@ async function checkPrimitive(
   }
   if (!attributes?.has("POSITION") || mode === 0 || mode === 1 || mode === 2 || mode === 3)
     return null;
-  const compressed =
-    memberOf(primitive.has("extensions") && primitive.raw("extensions"), kDraco) !== undefined;
   let vertices = 0;
   let normals: Float32Array | null = null;
   for (const name of ["POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"] as const) {

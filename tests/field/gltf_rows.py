@@ -1,0 +1,58 @@
+"""glTF as the world writes it: what exporters, converters and archives leave in files."""
+
+from checks import Custom, Findings, Radiance, Refused, Same
+
+GREY = (0.5, 0.5, 0.5)
+ORANGE = (0.8, 0.4, 0.2)
+COUNTED_RED = (0.5029, 0.0452, 0.0452)  # sRGB 188, 60, 60
+
+
+def is_top(row):
+    return row[4] > 0.9
+
+
+def is_side(row):
+    return abs(row[4]) < 0.1 and abs(row[3]) + abs(row[5]) > 0.9
+
+
+def three_cubes(tool):
+    asset, findings = tool.baked("used.glb")
+    tool.assertEqual(len(tool.shaded(asset, "uniform")), 72)
+    tool.assertFalse([code for code in findings if code.startswith("extension-")])
+
+
+def is_no_metal(tool):
+    asset, findings = tool.baked("unlit_factor.glb")
+    tool.assertIn("unlit", findings)
+    tool.assertNotIn("glossy", tool.run_tool("info", asset).stdout)
+
+
+ROWS = {
+    "04-gltf-far-node": [Same("far.glb", "near.glb", finds=("far-origin",))],
+    "05-gltf-no-normals": [
+        Radiance("cube.glb", (0.3798,) * 3, where=is_top, light="disc:0,90,10,100",
+                 options=("--bounces", "0"), finds=("normals-made",)),
+        Radiance("cube.glb", (0.0,) * 3, where=is_side, light="disc:0,90,10,100",
+                 options=("--bounces", "0")),
+        Radiance("cube.glb", (0.2184,) * 3, where=lambda row: row[4] > 0, light="disc:0,90,10,100",
+                 options=("--bounces", "0", "--smooth", "180")),
+    ],
+    "06-gltf-unlit": [Radiance("unlit_factor.glb", ORANGE), Custom("no metal", is_no_metal)],
+    "07-gltf-specgloss": [Radiance("specgloss.glb", COUNTED_RED)],
+    "15-gltf-bytestride-0": [Radiance("stride0.glb", GREY)],
+    "16-gltf-instancing": [Custom("three cubes", three_cubes)],
+    "17-gltf-alpha-mask": [Findings("mask.glb", ("alpha-ignored",), loss=True)],
+    "18-gltf-transmission": [
+        Findings("glass.glb", ("extension-KHR_materials_transmission",), loss=True),
+    ],
+    "19-gltf-matrix-noise": [Radiance("m44.glb", GREY)],
+    "22-gltf-hidden-node": [
+        Radiance("hidden.glb", GREY, finds=("hidden-nodes",),
+                 silent=("extension-KHR_node_visibility",)),
+    ],
+    "28-gltf-compressed-not-required": [
+        Radiance("draco.glb", GREY),
+        Radiance("draco_noidx.glb", (1.0, 1.0, 1.0)),
+        Refused("webp.glb", says=("image 0",)),
+    ],
+}
