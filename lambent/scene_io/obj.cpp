@@ -122,10 +122,13 @@ Result<scene::Mesh> ObjReader::build(const ObjPart& part, const UvTransform& uv,
   std::vector<std::uint32_t> ids;
   std::vector<scene::Triangle> cut;
   bool anyUv = false, anyNormal = false;
+  auto next = std::uint32_t(text_.positions.size());  // groups that are no position's
   const auto groupOf = [&](const ObjCorner& corner) {
     if (corner.smoothing == -1) return std::uint32_t(corner.position);
-    const auto next = std::uint32_t(text_.positions.size() + smoothed.size());
-    return smoothed.try_emplace({corner.position, corner.smoothing}, next).first->second;
+    if (corner.smoothing < -1) return next++;  // a face's own
+    const auto [entry, isNew] = smoothed.try_emplace({corner.position, corner.smoothing}, next);
+    next += isNew;
+    return entry->second;
   };
   const auto addVertex = [&](const ObjCorner& corner) {
     const auto position = std::size_t(corner.position);
