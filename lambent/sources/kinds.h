@@ -10,12 +10,20 @@ using Light = WithFindings<light::Environment>;
 Result<Light> uniformLight(const Term& term, const SourceOptions& options);
 Result<Light> discLight(const Term& term, const SourceOptions& options);
 Result<Light> directionalLight(const Term& term, const SourceOptions& options);
+Result<Light> latLongMap(const Term& term, const SourceOptions& options);
 Result<Light> cubeMap(const Term& term, const SourceOptions& options);
 Result<Light> angularMap(const Term& term, const SourceOptions& options);
 Result<Light> mirrorBall(const Term& term, const SourceOptions& options);
 Result<Light> skyLight(const Term& term, const SourceOptions& options);
 /// Its request, resolved.
 Result<WithFindings<sky::ResolvedSky>> resolvedTerm(const Term& term);
+
+/// FILE.exr:LAYER in two; a file that has such a name is one.
+struct PictureName {
+  std::filesystem::path path;
+  std::string layer;  ///< or empty
+};
+PictureName pictureNameOf(std::string_view name);
 
 /// The file among the keys of a sky, if one of them names one.
 std::optional<std::string_view> atmosphereOf(std::string_view rest);

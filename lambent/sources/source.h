@@ -30,7 +30,8 @@ struct SourceOptions {
   Progress progress = {};
 };
 
-/// FILE.exr|.hdr|.png (lat-long, 2:1) | cube:FILE | angular:FILE | ball:FILE (see image::MapKind) |
+/// FILE.exr|.hdr|.png|.jpg|.webp (lat-long, 2:1, or what an .exr says it is) | latlong:FILE (any size) |
+/// cube:FILE | angular:FILE | ball:FILE (see image::MapKind), each FILE.exr:LAYER for a layer or part |
 /// LIGHT.json | uniform[:RADIANCE] |
 /// disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE] | directional:AZIMUTH,ELEVATION[,IRRADIANCE]
 /// (degrees; azimuth from +x towards +z) | sky:KEY=VALUE,… (see sky/sky_request.h: dome, Sun and
@@ -38,7 +39,8 @@ struct SourceOptions {
 /// (W m⁻² sr⁻¹) and IRRADIANCE (W m⁻², on a surface that faces the light) are one number or R/G/B.
 ///
 /// What cannot be understood is BadUsage, what is wrong with a file BadInput. Negative channels of
-/// an image become 0 ("light-pixels-negative").
+/// an image become 0 ("light-pixels-negative"), and one made for a screen is no whole light
+/// ("light-not-hdr"); what image::readPicture finds is told too.
 Result<WithFindings<light::Environment>> parseSource(std::string_view text,
                                                      const SourceOptions& options = {});
 

@@ -298,6 +298,7 @@ TEST_F(Source, TheTableKnowsEveryWord) {
 TEST_F(Source, HelpHasALineForEveryForm) {
   EXPECT_EQ(sourceHelp(), R"(SOURCE of light:
   FILE.exr FILE.hdr FILE.png   an environment image, latitude-longitude
+  FILE.exr:LAYER               a layer or part of it that is not its picture
   LIGHT.json                   coefficients written by 'lambent light'
   uniform[:RADIANCE]           the same from everywhere
   disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]
