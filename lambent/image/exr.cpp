@@ -253,7 +253,7 @@ Status convert(const Imf::Header& header, ExrColour::Model model, std::string_vi
   if (model == Model::Xyz) primaries = radiometry::xyzPrimaries();
   if (model == Model::Rgb || model == Model::Chroma)
     primaries = statedPrimaries(header, name, picture.findings);
-  if (primaries) toRec709(*primaries, picture.image);
+  if (primaries && toRec709(*primaries, picture.image)) picture.converted = true;
   tellUnused(header, name, picture.findings);
   picture.map = statedMap(header);
   if (picture.map != MapKind::Cube) return Status::ok();
@@ -265,6 +265,14 @@ Status convert(const Imf::Header& header, ExrColour::Model model, std::string_vi
                     name, picture.image.width, picture.image.height));
   picture.image = std::move(*cube);
   return Status::ok();
+}
+
+/// Before colours are.
+bool isConverted(const ExrColour& colour, const Windows& w, const Imf::Header& header) {
+  using Model = ExrColour::Model;
+  const bool plain = colour.model == Model::Rgb || colour.model == Model::Luminance;
+  return colour.part != 0 || !colour.layer.empty() || !plain || w.data != w.display ||
+         statedMap(header) == MapKind::Cube;
 }
 
 Result<PictureFile> readChecked(Bytes bytes, std::string_view name, file::Budget& budget,
@@ -280,7 +288,9 @@ Result<PictureFile> readChecked(Bytes bytes, std::string_view name, file::Budget
   const Imf::Header& header = file.header(choice->value.part);
   const Result<Windows> windows = windowsOf(header, bytes.size(), name, budget);
   if (!windows) return windows.error();
-  PictureFile picture{{}, {}, false, std::move(choice->findings)};
+  PictureFile picture;
+  picture.findings = std::move(choice->findings);
+  picture.converted = isConverted(choice->value, *windows, header);
   Result<Image> pixels = readPixels(file, input, choice->value, *windows, name, picture.findings);
   if (!pixels) return pixels.error();
   picture.image = std::move(*pixels);

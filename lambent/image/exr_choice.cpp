@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -65,16 +66,13 @@ std::vector<Layer> layersOf(const Imf::MultiPartInputFile& file) {
     const Imf::Header& header = file.header(part);
     if (isDeep(header)) continue;
     const std::string partName = header.hasName() ? header.name() : "";
-    const std::size_t first = layers.size();
+    std::map<std::string_view, std::size_t> placeOf;  // headers may name channels by the thousand
     for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
       const std::string_view prefix = prefixOf(i.name());
-      auto at = std::find_if(layers.begin() + std::ptrdiff_t(first), layers.end(),
-                             [&](const Layer& layer) { return layer.prefix == prefix; });
-      if (at == layers.end()) {
+      const auto [at, isNew] = placeOf.emplace(prefix, layers.size());
+      if (isNew)
         layers.push_back({part, partName, std::string(prefix), {}, viewOf(header, prefix, views)});
-        at = layers.end() - 1;
-      }
-      at->channels.emplace_back(i.name());
+      layers[at->second].channels.emplace_back(i.name());
     }
   }
   return layers;
@@ -165,18 +163,29 @@ std::string describe(const Layer& layer, int parts) {
   return fmt::format("{}{}({})", name, name.empty() ? "" : " ", fmt::join(words, " "));
 }
 
-std::string describeAll(const std::vector<Layer>& layers, int parts, std::size_t but) {
+std::string describe(const std::vector<Layer>& layers, int parts) {
   constexpr std::size_t kMost = 12;
   std::string text;
-  std::size_t told = 0, more = 0;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    if (i == but) continue;
-    if (told == kMost)
-      ++more;
-    else
-      text += (told++ > 0 ? ", " : "") + describe(layers[i], parts);
+  for (std::size_t i = 0; i < std::min(layers.size(), kMost); ++i)
+    text += (i > 0 ? ", " : "") + describe(layers[i], parts);
+  return layers.size() > kMost ? text + fmt::format(" and {} more", layers.size() - kMost) : text;
+}
+
+/// A layer in what the picture takes of it and what it does not.
+std::pair<Layer, Layer> divide(const Layer& layer, const ExrColour& colour) {
+  Layer used{layer.part, layer.partName, layer.prefix, {}, layer.view}, unused = used;
+  const std::string stem = colour.model == Model::Chroma
+                               ? colour.channels[0].substr(0, colour.channels[0].size() - 1)
+                               : std::string();
+  for (const std::string& channel : layer.channels) {
+    const bool chroma = colour.model == Model::Chroma &&
+                        (sameName(channel, stem + "RY") || sameName(channel, stem + "BY"));
+    const auto& three = colour.channels;
+    const bool taken = chroma || channel == colour.alpha ||
+                       std::find(three.begin(), three.end(), channel) != three.end();
+    (taken ? used : unused).channels.push_back(channel);
   }
-  return more > 0 ? text + fmt::format(" and {} more", more) : text;
+  return {std::move(used), std::move(unused)};
 }
 
 int deepParts(const Imf::MultiPartInputFile& file) {
@@ -186,28 +195,24 @@ int deepParts(const Imf::MultiPartInputFile& file) {
 }
 
 /// What was taken and what was left; nothing if the picture is all that there is.
-void tellChoice(const Candidate& taken, const std::vector<Layer>& layers,
-                const Imf::MultiPartInputFile& file, bool asked, std::string_view name,
-                Findings& findings) {
-  const Layer& layer = layers[taken.layer];
-  std::string left = describeAll(layers, file.parts(), taken.layer);
-  if (const int deep = deepParts(file))
-    left += fmt::format("{}{} with deep pixels", left.empty() ? "" : ", ",
-                        deep == 1 ? "a part" : fmt::format("{} parts", deep));
-  const std::size_t channels =
-      taken.colour.model == Model::Single || taken.colour.model == Model::Luminance ? 1 : 3;
-  const bool dubious = !asked && (taken.pass >= Pass::Share || taken.colour.model == Model::Single);
-  if ((left.empty() && !dubious) || (asked && !dubious)) return;
-  std::string text = fmt::format("{}: the picture is {}", name, describe(layer, file.parts()));
-  if (dubious)
-    text += fmt::format(", {} channel{} that by {} may be no light", channels == 1 ? "a" : "three",
-                        channels == 1 ? "" : "s", channels == 1 ? "its name" : "their name");
-  if (!left.empty())
+void tellChoice(const Candidate& taken, std::vector<Layer> layers,
+                const Imf::MultiPartInputFile& file, std::string_view name, Findings& findings) {
+  const auto [used, unused] = divide(layers[taken.layer], taken.colour);
+  if (unused.channels.empty())
+    layers.erase(layers.begin() + std::ptrdiff_t(taken.layer));
+  else
+    layers[taken.layer] = unused;
+  const auto deep = static_cast<std::size_t>(deepParts(file));
+  const bool dubious = taken.pass >= Pass::Share || taken.colour.model == Model::Single;
+  if (layers.empty() && deep == 0 && !dubious) return;
+  std::string text = fmt::format("{}: the picture is {}", name, describe(used, file.parts()));
+  if (dubious) text += ", which by its name may be no light, or not all of it";
+  if (!layers.empty())
     text += fmt::format("; left: {}. For another write its name behind the file's, FILE.exr:LAYER",
-                        left);
-  const std::uint64_t count = layers.size() - 1 + std::uint64_t(deepParts(file));
+                        describe(layers, file.parts()));
+  if (deep > 0) text += fmt::format("; {} part(s) with deep pixels cannot be read", deep);
   findings.push_back({dubious || taken.pass == Pass::Unknown ? Severity::Warning : Severity::Note,
-                      "exr-layers", text, count});
+                      "exr-layers", text, layers.size() + deep});
 }
 
 /// Whether a person who writes `wanted` means this layer: its name, the name of its part, or the end
@@ -257,16 +262,16 @@ Result<WithFindings<ExrColour>> chooseColour(const Imf::MultiPartInputFile& file
   if (candidates.empty() && !layer.empty())
     return report::badInput(
         fmt::format("{}: has no layer {} with channels R, G, B or one channel; it has {}", name,
-                    layer, describeAll(layers, file.parts(), layers.size())));
+                    layer, describe(layers, file.parts())));
   if (candidates.empty())
     return report::badInput(fmt::format(
         "{}: has neither channels R, G, B nor Y; it has {}; save it with colour channels", name,
-        describeAll(layers, file.parts(), layers.size())));
+        describe(layers, file.parts())));
   const auto best =
       std::min_element(candidates.begin(), candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); });
   WithFindings<ExrColour> chosen{best->colour, {}};
-  tellChoice(*best, layers, file, !layer.empty(), name, chosen.findings);
+  if (layer.empty()) tellChoice(*best, layers, file, name, chosen.findings);
   return chosen;
 }
 

@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -41,6 +42,17 @@ Eigen::Vector2d point(const Imath::V2f& v) {
 /// A direction of OpenEXR's frame in ours and back: a quarter turn about +y.
 Imath::V3f envmapFromWorld(const Vec3d& d) {
   return {static_cast<float>(-d.z()), static_cast<float>(d.y()), static_cast<float>(d.x())};
+}
+
+/// Bilinear between the pixels of one face, whose rows begin at `top`.
+Rgb between(const Image& column, float x, float y, int top) {
+  const int n = column.width;
+  const int x0 = std::clamp(static_cast<int>(x), 0, n - 1);
+  const int y0 = std::clamp(static_cast<int>(y), top, top + n - 1);
+  const int x1 = std::min(x0 + 1, n - 1), y1 = std::min(y0 + 1, top + n - 1);
+  const float u = std::clamp(x - float(x0), 0.0f, 1.0f), v = std::clamp(y - float(y0), 0.0f, 1.0f);
+  return (column.at(x0, y0) * (1 - u) + column.at(x1, y0) * u) * (1 - v) +
+         (column.at(x0, y1) * (1 - u) + column.at(x1, y1) * u) * v;
 }
 
 }  // namespace
@@ -109,25 +121,14 @@ std::optional<Image> cubeOfEnvmap(const Image& column) {
   const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(n - 1, 6 * n - 1));
   const MapShape shape{MapKind::Cube, n, 6 * n};
   Image cube(n, 6 * n);
-  if (!column.alpha.empty()) cube.alpha.resize(column.alpha.size());
-  // The library counts from centre to centre of a face's outermost pixels, which lie on the edges of
-  // the cube; ours are whole pixels, whose centres are never half a pixel from there.
-  const auto along = [&](int pixel) {
-    const double onEdges = n > 1 ? 2.0 * pixel / (n - 1) - 1.0 : 0.0;
-    return 0.5 * n * (1.0 + (1.0 - 1e-6) * onEdges);  // an edge belongs to two faces
-  };
   for (int y = 0; y < cube.height; ++y)
     for (int x = 0; x < n; ++x) {
-      const Vec3d direction = *directionOf(shape, {along(x), y / n * n + along(y % n)});
+      const Vec3d direction = *directionOf(shape, {x + 0.5, y + 0.5});
       Imf::CubeMapFace face;
       Imath::V2f inFace;
       Imf::CubeMap::faceAndPixelPosition(envmapFromWorld(direction), window, face, inFace);
-      const Imath::V2f from = Imf::CubeMap::pixelPosition(face, window, inFace);
-      const auto column0 = static_cast<std::size_t>(std::lround(from.x));
-      const auto at = static_cast<std::size_t>(std::lround(from.y)) * std::size_t(n) + column0;
-      const auto to = std::size_t(y) * std::size_t(n) + std::size_t(x);
-      cube.pixels[to] = column.pixels[at];
-      if (!cube.alpha.empty()) cube.alpha[to] = column.alpha[at];
+      const Imath::V2f at = Imf::CubeMap::pixelPosition(face, window, inFace);
+      cube.at(x, y) = between(column, at.x, at.y, int(face) * n);
     }
   return cube;
 }

@@ -25,8 +25,9 @@ void tellUnused(const Imf::Header& header, std::string_view name, Findings& find
 
 /// A column of six faces as `envmap` has them → the same in the sequence and orientation of
 /// MapKind::Cube, in Lambent's frame: that in which the latitude-longitude map of OpenEXR (its centre
-/// +z, a quarter to the left +x) is MapKind::LatLong. Every pixel is kept as it is. Nothing for other
-/// shapes than n × 6n.
+/// +z, a quarter to the left +x) is MapKind::LatLong. OpenEXR's outermost pixels lie on the edges of
+/// the cube, where two faces hold the same; ours are whole pixels between the edges, so that every
+/// pixel is interpolated. Coverage is dropped. Nothing for other shapes than n × 6n.
 std::optional<Image> cubeOfEnvmap(const Image& column);
 
 }  // namespace lambent::image::formats

@@ -62,8 +62,8 @@ bool isJpeg(Bytes bytes);
 bool isWebP(Bytes bytes);
 
 /// Linear colours, mixtures of `primaries`, become those of Rec. 709; a pixel with a channel that is
-/// not finite stays as it is. Nothing happens to primaries of no triangle (see rec709From).
-void toRec709(const radiometry::Primaries& primaries, Image& image);
+/// not finite stays as it is. False: nothing was to be done, or `primaries` span no triangle.
+bool toRec709(const radiometry::Primaries& primaries, Image& image);
 
 /// "NAME: WHAT at byte AT; the file is damaged or cut off"
 Error damaged(std::string_view name, const std::string& what, size_t at);

@@ -73,6 +73,10 @@ struct Header {
   char slow = 'Y', fast = 'X';
   bool slowRises = false, fastRises = true;  ///< the sign; +Y is up, +X right
   int slowSize = 0, fastSize = 0;
+  /// From the top left, line by line, exposed once.
+  bool isPlain() const {
+    return slow == 'Y' && !slowRises && fastRises && divisor == std::array<double, 3>{1, 1, 1};
+  }
   int width() const { return slow == 'X' ? slowSize : fastSize; }
   int height() const { return slow == 'X' ? fastSize : slowSize; }
 };
@@ -322,11 +326,13 @@ Result<PictureFile> readHdr(Bytes bytes, std::string_view name, file::Budget& bu
           decodePixel(line[f], *header);
     }
   }
-  if (header->xyz)
-    toRec709(radiometry::xyzPrimaries(), image);
-  else if (header->primaries)
-    toRec709(*header->primaries, image);
-  return PictureFile{std::move(image), {}, false, std::move(header->findings)};
+  PictureFile picture;
+  if (header->xyz) header->primaries = radiometry::xyzPrimaries();
+  picture.converted = !header->isPlain();
+  if (header->primaries && toRec709(*header->primaries, image)) picture.converted = true;
+  picture.image = std::move(image);
+  picture.findings = std::move(header->findings);
+  return picture;
 }
 
 std::vector<std::byte> writeHdr(const Image& image) {

@@ -64,10 +64,12 @@ Result<PictureFile> linearised(Result<formats::Codes> codes, std::string_view na
     return fits.error();
   }
   if (options.plainCodes) codes->colour = {};
-  PictureFile picture{{}, {}, true, {}};
+  PictureFile picture;
+  picture.codes = true;
   picture.image =
       codes->rgba16.empty() ? toImage(*codes, codes->rgba8) : toImage(*codes, codes->rgba16);
-  if (codes->colour.primaries) formats::toRec709(*codes->colour.primaries, picture.image);
+  if (codes->colour.primaries)
+    picture.converted = formats::toRec709(*codes->colour.primaries, picture.image);
   tellProfile(codes->colour, name, picture.findings);
   return picture;
 }
@@ -101,13 +103,14 @@ Result<PictureFile> decodeAs(Format format, std::span<const std::byte> bytes, st
 
 namespace formats {
 
-void toRec709(const radiometry::Primaries& primaries, Image& image) {
-  if (isNear(primaries, radiometry::rec709Primaries())) return;
+bool toRec709(const radiometry::Primaries& primaries, Image& image) {
+  if (isNear(primaries, radiometry::rec709Primaries())) return false;
   const std::optional<Mat3d> exact = rec709From(primaries);
-  if (!exact) return;
+  if (!exact) return false;
   const Mat3 matrix = exact->cast<float>();
   for (Rgb& pixel : image.pixels)
     if (pixel.isFinite().all()) pixel = (matrix * pixel.matrix()).array();
+  return true;
 }
 
 Error damaged(std::string_view name, const std::string& what, size_t at) {

@@ -40,6 +40,9 @@ struct PictureFile {
   /// The map of all directions that the file says it is; a cube's faces are brought into the
   /// sequence and orientation of MapKind::Cube.
   std::optional<MapKind> map;
+  /// Whether pixels are other than those that a reader takes who knows no more than the channels R, G,
+  /// B of the first part, or the numbers of a Radiance picture from the top left.
+  bool converted = false;
   bool codes = false;  ///< PNG, JPEG, WebP: made for a screen, from 0 to 1
   Findings findings;  ///< what the file says or holds that is not in `image`, or was taken on trust
 };

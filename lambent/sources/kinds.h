@@ -18,13 +18,6 @@ Result<Light> skyLight(const Term& term, const SourceOptions& options);
 /// Its request, resolved.
 Result<WithFindings<sky::ResolvedSky>> resolvedTerm(const Term& term);
 
-/// FILE.exr:LAYER in two; a file that has such a name is one.
-struct PictureName {
-  std::filesystem::path path;
-  std::string layer;  ///< or empty
-};
-PictureName pictureNameOf(std::string_view name);
-
 /// The file among the keys of a sky, if one of them names one.
 std::optional<std::string_view> atmosphereOf(std::string_view rest);
 /// Where KEY=VALUE,… that begins at `at` ends: at a '+' that is no sign, in no exponent and in no

@@ -72,6 +72,13 @@ std::span<const SourceKind> sourceKinds();
 /// The kind whose word a term begins with; null if the term is the name of a file.
 const SourceKind* kindOf(std::string_view term);
 
+/// FILE.exr:LAYER in two; a file that has such a name is one.
+struct PictureName {
+  std::filesystem::path path;
+  std::string layer;  ///< or empty
+};
+PictureName pictureNameOf(std::string_view name);
+
 /// The files that one term names: a map, a LIGHT.json, the atmosphere of a sky.
 std::vector<std::filesystem::path> filesOf(std::string_view term);
 
