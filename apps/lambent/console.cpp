@@ -42,6 +42,9 @@ std::string textOf(const Json& whole) {
 
 void addCommonOptions(CLI::App& app, ConsoleOptions& options) {
   app.add_flag("--json", options.json, "Print the summary as JSON on stdout")->group("Output");
+  app.add_flag("--strict", options.strict,
+               "What is left out of a file that is read is an error, not a note or a warning")
+      ->group("Output");
   app.add_flag("-q,--quiet", options.quiet, "No progress, no notes; warnings and errors stay")
       ->group("Output");
   addNumber(app, "--threads", options.threads, {0, 4096},
@@ -73,10 +76,22 @@ void Console::report(const Findings& findings) {
   bar_.finish();
   for (const Finding& finding : findings) {
     const bool warning = finding.severity == Severity::Warning;
-    if (warning || !options_.quiet)
+    if (warning || !options_.quiet || (finding.loss && options_.strict))
       tell(fmt::format("{}: {}\n", warning ? "warning" : "note", finding.message));
     findings_.push_back(finding);
   }
+}
+
+Status Console::accept(const Findings& findings) {
+  report(findings);
+  std::string lost;
+  for (const Finding& finding : findings)
+    if (finding.loss) lost += (lost.empty() ? "" : ", ") + finding.code;
+  if (!options_.strict || lost.empty()) return Status::ok();
+  return badInput(
+      fmt::format("not all that the file says can be taken ({}), and --strict asks for all of it; "
+                  "see the notes above, mend the file, or do without --strict",
+                  lost));
 }
 
 void Console::note(std::string code, std::string message) {
@@ -93,7 +108,8 @@ Json Console::findingsAsJson() const {
     list.push_back({{"severity", finding.severity == Severity::Warning ? "warning" : "note"},
                     {"code", finding.code},
                     {"message", finding.message},
-                    {"count", finding.count}});
+                    {"count", finding.count},
+                    {"loss", finding.loss}});
   return list;
 }
 

@@ -26,7 +26,8 @@ inline constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2, kExitBadInp
 struct ConsoleOptions {
   bool json = false;
   bool quiet = false;
-  int threads = 0;  ///< 0: all
+  bool strict = false;  ///< what is left out of a file is an error
+  int threads = 0;      ///< 0: all
 };
 
 void addCommonOptions(CLI::App& app, ConsoleOptions& options);
@@ -54,6 +55,9 @@ class Console {
 
   /// "note: …" and "warning: …" on stderr; also kept for the JSON summary.
   void report(const Findings& findings);
+  /// report() of what was found in a file that was read: BadInput if any of it is a loss and
+  /// --strict asks for all.
+  Status accept(const Findings& findings);
   void note(std::string code, std::string message);
   void warn(std::string code, std::string message);
 

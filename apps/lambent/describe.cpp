@@ -114,8 +114,12 @@ Description describe(const scene::Scene& scene) {
   d.text = fmt::format("{} meshes, {} vertices, {} triangles, from {} to {} m\n{}",
                        scene.meshes.size(), formatCount(vertices), formatCount(triangles),
                        text(box.lower), text(box.upper), lines);
+  if (!scene.origin.isZero(0.0))
+    d.text += fmt::format("  its origin lies at {} {} {} m of the file\n", scene.origin.x(),
+                          scene.origin.y(), scene.origin.z());
   d.json = {{"vertices", vertices},
             {"triangles", triangles},
+            {"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}},
             {"bounds", {asJson(box.lower), asJson(box.upper)}},
             {"meshes", meshes},
             {"materials", materials},

@@ -66,7 +66,7 @@ Result<Whole> describeModel(const std::filesystem::path& path, const ReadingArgu
     }
     return loaded.error();
   }
-  console.report(loaded->findings);
+  if (Status whole = console.accept(loaded->findings); !whole) return whole.error();
   return Whole{"scene", describe(loaded->scene)};
 }
 

@@ -47,7 +47,7 @@ Result<light::Environment> LightArguments::environment(const ReadingArguments& r
   auto parsed = console.stage(
       "light", [&] { return sources::parseSource(source, reading.forSource(console.progress())); });
   if (!parsed) return parsed.error();
-  console.report(parsed->findings);
+  if (Status whole = console.accept(parsed->findings); !whole) return whole.error();
   if (rotateY == 0.0) return std::move(parsed->value);
   return parsed->value.rotated(worldFromSource().cast<float>());
 }

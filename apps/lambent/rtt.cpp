@@ -118,7 +118,7 @@ Result<meso::Patch> makePatch(const RttRequest& arguments, const std::optional<V
   options.memoryLimit = arguments.reading.memoryLimit;
   auto loaded = console.stage("load", [&] { return meso::loadPatch(arguments.patch, options); });
   if (!loaded) return loaded.error();
-  console.report(loaded->findings);
+  if (Status whole = console.accept(loaded->findings); !whole) return whole.error();
   files.readsFilesOf("PATCH", loaded->linkedFiles);
   if (Status distinct = files.check(); !distinct) return distinct.error();
   return std::move(loaded->value);

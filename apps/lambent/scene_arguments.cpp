@@ -89,7 +89,7 @@ Result<scene::Scene> SceneArguments::load(Console& console, NamedFiles& files) c
   } else {
     auto loaded = console.stage("load", [&] { return scene_io::load(path, reading.forScene()); });
     if (!loaded) return loaded.error();
-    console.report(loaded->findings);
+    if (Status whole = console.accept(loaded->findings); !whole) return whole.error();
     scene = std::move(loaded->scene);
     files.readsFilesOf("SCENE", loaded->linkedFiles);
     if (Status distinct = files.check(); !distinct) return distinct.error();

@@ -56,7 +56,7 @@ Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
     return sources::parseSource(state.environment, options.reading.forSource(console.progress()));
   });
   if (!parsed) return parsed.error();
-  console.report(parsed->findings);
+  if (Status whole = console.accept(parsed->findings); !whole) return whole.error();
   const light::Environment& environment = parsed->value;
   return console.stage("project", [&] {
     view::StateLight light(environment, options.bands);

@@ -69,14 +69,14 @@ std::optional<Primaries> statedPrimaries(const Imf::Header& header, std::string_
            fmt::format("{}: states an adopted neutral of ({:.4f}, {:.4f}); white of its "
                        "primaries stays white, and it is not used",
                        name, Imf::adoptedNeutral(header).x, Imf::adoptedNeutral(header).y),
-           1});
+           1, true});
     if (radiometry::rec709From(stated)) return stated;
     findings.push_back(
         {Severity::Warning, "colour-primaries",
          fmt::format("{}: the primaries that it states span no triangle; its colours are "
                      "taken as mixtures of those of Rec. 709",
                      name),
-         1});
+         1, true});
     return std::nullopt;
   }
   const auto* const aces = header.findTypedAttribute<Imf::IntAttribute>("acesImageContainerFlag");
@@ -90,7 +90,7 @@ std::optional<Primaries> statedPrimaries(const Imf::Header& header, std::string_
                      "taken as linear: if these are encoded, colours come out wrong; save "
                      "it linear",
                      name, space),
-         1});
+         1, true});
   return radiometry::primariesNamed(space);
 }
 
@@ -105,14 +105,14 @@ void tellUnused(const Imf::Header& header, std::string_view name, Findings& find
                         fmt::format("{}: states that white is {:g} cd/m²; its numbers are taken as "
                                     "radiances (W m⁻² sr⁻¹) as they are",
                                     name, Imf::whiteLuminance(header)),
-                        1});
+                        1, true});
   if (std::abs(header.pixelAspectRatio() - 1.0f) > 1e-3f)
     findings.push_back(
         {Severity::Note, "pixel-aspect",
          fmt::format("{}: states that its pixels are {:g} times as wide as high; the "
                      "picture is not stretched",
                      name, header.pixelAspectRatio()),
-         1});
+         1, true});
 }
 
 std::optional<Image> cubeOfEnvmap(const Image& column) {

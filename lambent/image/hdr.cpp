@@ -120,7 +120,7 @@ void readPrimaries(const std::vector<double>& xy, std::string_view name, Header&
        fmt::format("{}: its PRIMARIES are not eight numbers that span a triangle; "
                    "its colours are taken as mixtures of those of Rec. 709",
                    name),
-       1});
+       1, true});
 }
 
 /// What is said but not used.
@@ -136,7 +136,7 @@ void readUnused(std::string_view line, std::string_view name, Header& header) {
          fmt::format("{}: says {}; numbers of this format are linear, and it is not "
                      "used: if they are encoded, save the picture linear",
                      name, line.substr(0, 40)),
-         1});
+         1, true});
   if (differs("PIXASPECT="))
     header.findings.push_back(
         {Severity::Note, "pixel-aspect",

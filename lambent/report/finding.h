@@ -14,6 +14,9 @@ struct Finding {
   std::string code;         ///< stable, for --json: "degenerate-triangles", "normals-made", …
   std::string message;      ///< for people: what, where, what was done about it
   std::uint64_t count = 0;  ///< how many triangles, vertices, … are concerned
+  /// Whether something that the file says was left out, or taken as something else: what `--strict`
+  /// makes an error.
+  bool loss = false;
 };
 
 using Findings = std::vector<Finding>;

@@ -75,6 +75,10 @@ struct Camera {
 };
 
 struct Scene {
+  /// Where (0, 0, 0) of everything here lies in the coordinates of the file, metres: zero unless
+  /// the file stands so far away that floats would not hold it (scene_io/far_origin.h). Light comes
+  /// from infinity and nothing here asks for it; it is kept so that nothing is lost.
+  Vec3d origin = Vec3d::Zero();
   std::vector<Mesh> meshes;
   std::vector<Material> materials;  ///< at least one if there is a mesh
   std::vector<Texture> textures;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include <Eigen/Geometry>
 
@@ -54,6 +55,17 @@ std::vector<std::uint32_t> dropUnused(Mesh& mesh) {
     for (std::uint32_t& v : t) v = newFromOld[v];
   }
   return oldFromNew;
+}
+
+/// Numbers groups from 0 where they are few among many: what is made for each number would be made
+/// for each part of a file of many parts.
+void renumber(std::vector<std::uint32_t>& groups) {
+  const auto most = std::max_element(groups.begin(), groups.end());
+  if (most == groups.end() || *most < 4 * groups.size()) return;
+  std::unordered_map<std::uint32_t, std::uint32_t> newFromOld;
+  for (std::uint32_t& group : groups) {
+    group = newFromOld.try_emplace(group, std::uint32_t(newFromOld.size())).first->second;
+  }
 }
 
 bool isUsable(const Vec3& n) {
@@ -193,12 +205,19 @@ void Diagnosis::add(Severity severity, const std::string& code, std::uint64_t co
   if (!isNew) entry->second.count += count;
 }
 
+void Diagnosis::lose(Severity severity, const std::string& code, std::uint64_t count,
+                     const std::string& what, const std::string& place) {
+  add(severity, code, count, what, place);
+  entries_.at(code).loss = true;
+}
+
 Findings Diagnosis::findings() const {
   Findings findings;
   for (const auto& [code, entry] : entries_) {
-    std::string message = std::to_string(entry.count) + " " + entry.what;
+    std::string message = entry.count > 0 ? std::to_string(entry.count) + " " : std::string();
+    message += entry.what;
     if (!entry.place.empty()) message += " (first: " + entry.place + ")";
-    findings.push_back({entry.severity, code, std::move(message), entry.count});
+    findings.push_back({entry.severity, code, std::move(message), entry.count, entry.loss});
   }
   return findings;
 }
@@ -262,6 +281,7 @@ Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& f
   if (!options.groups.empty()) {
     groups.assign(options.groups.begin(), options.groups.end());
     if (!options.keepAllVertices) compact(groups, oldFromNew);
+    renumber(groups);
   }
   finishNormals(mesh, options, groups, place, diagnosis);
   finishAttributes(mesh, place, diagnosis);

@@ -15,10 +15,14 @@ namespace lambent::scene_io {
 /// place.
 class Diagnosis {
  public:
-  /// `what` completes "<count> …" ("degenerate triangles were kept out"); `place` is the first
-  /// place, and may be empty.
+  /// `what` completes "<count> …" ("degenerate triangles were kept out"), or with a count of 0
+  /// stands alone, for what concerns the whole file; `place` is the first place, and may be empty.
   void add(Severity severity, const std::string& code, std::uint64_t count, const std::string& what,
            const std::string& place = {});
+  /// The same for what the file says and the scene does not have. `what` says what was left out,
+  /// what that changes, and the remedy.
+  void lose(Severity severity, const std::string& code, std::uint64_t count,
+            const std::string& what, const std::string& place = {});
   Findings findings() const;
 
  private:
@@ -26,6 +30,7 @@ class Diagnosis {
     Severity severity;
     std::uint64_t count;
     std::string what, place;
+    bool loss = false;
   };
   std::map<std::string, Entry> entries_;
 };

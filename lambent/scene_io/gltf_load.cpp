@@ -14,6 +14,7 @@
 #include "lambent/scene_io/gltf_extensions.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_materials.h"
+#include "lambent/scene_io/gltf_origin.h"
 #include "lambent/scene_io/gltf_read.h"
 #include "lambent/scene_io/mesh_bytes.h"
 
@@ -388,6 +389,7 @@ Result<LoadedGltf> Loader::load() {
   if (result_.loaded.scene.meshes.empty()) {
     return bad("holds no triangles; Lambent needs a surface to bake");
   }
+  result_.loaded.scene.origin = originOf(document_);
   result_.loaded.findings = diagnosis_.findings();
   file_.linkedFiles().noteGltf(document_);
   result_.loaded.linkedFiles = file_.linkedFiles().noted();

@@ -10,6 +10,7 @@
 #include "lambent/image/decode.h"
 #include "lambent/scene_io/gltf_component.h"
 #include "lambent/scene_io/gltf_material.h"
+#include "lambent/scene_io/gltf_origin.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -109,6 +110,9 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
   document["asset"] = {{"version", "2.0"}, {"generator", "Lambent"}};
   document["scene"] = 0;
   document["scenes"] = Json::array({Json::object()});
+  if (!scene.origin.isZero(0.0)) {
+    document["scenes"][0]["extras"] = originExtras(scene.origin);
+  }
 
   for (const scene::Texture& texture : scene.textures) {
     std::vector<std::byte> png;

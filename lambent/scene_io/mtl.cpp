@@ -4,67 +4,33 @@
 #include <optional>
 
 #include "lambent/scene_io/gltf_material.h"
-#include "lambent/scene_io/text_cursor.h"
+#include "lambent/scene_io/mtl_entry.h"
+#include "lambent/scene_io/text_file.h"
 #include "lambent/scene_io/texture.h"
 
 namespace lambent::scene_io {
 namespace {
 
-/// One newmtl as the file says it.
-struct Entry {
-  std::string name;
-  std::optional<Rgb> diffuse, specular;
-  std::optional<float> exponent, metallic, roughness;
-  int illumination = 2;
-  std::string diffuseMap;
-  bool transparent = false;
-};
-
-std::optional<Rgb> color(TextCursor& cursor) {
-  const auto r = cursor.number();
-  if (!r) return {};
-  const auto g = cursor.number(), b = cursor.number();
-  const Rgb c = g && b ? Rgb(*r, *g, *b) : Rgb(Rgb::Constant(*r));
-  return c.isFinite().all() ? std::optional<Rgb>(c.max(0.0f).min(1.0f)) : std::nullopt;
+Rgb reflectanceOf(const Rgb& color) {
+  return color.max(0.0f).min(1.0f);
 }
 
-/// The file's name behind a map's options ("-s 1 1 1 -clamp on wood.png"): words that begin with a
-/// minus, and the numbers and switches after them, are left out.
-std::string mapName(TextCursor& cursor) {
-  std::string_view rest = cursor.rest();
-  while (!rest.empty() && rest[0] == '-') {
-    TextCursor words(rest);
-    words.nextLine();
-    words.word();
-    for (;;) {
-      const std::string_view after = words.rest();
-      const bool isNumber = words.number().has_value();
-      const std::string_view word = isNumber ? std::string_view() : words.word();
-      if (isNumber || word == "on" || word == "off") continue;
-      rest = after;
-      break;
-    }
-  }
-  std::string name(rest);
-  std::replace(name.begin(), name.end(), '\\', '/');
-  return name;
-}
-
-scene::Material materialOf(const Entry& entry, bool hasMap, Diagnosis& diagnosis) {
+scene::Material materialOf(const MtlEntry& entry, bool hasMap, Diagnosis& diagnosis) {
   scene::Material material;
   material.name = entry.name;
-  Rgb diffuse = entry.diffuse.value_or(hasMap ? Rgb(Rgb::Ones()) : material.diffuse);
+  if (entry.emission) material.emission = entry.emission->max(0.0f);
+  Rgb diffuse = reflectanceOf(entry.diffuse.value_or(hasMap ? Rgb(Rgb::Ones()) : material.diffuse));
   if (hasMap && diffuse.maxCoeff() <= 0.0f) diffuse = Rgb::Ones();
   if (entry.metallic || entry.roughness) {
     MetallicRoughness pbr;
     pbr.baseColor = diffuse;
-    pbr.metallic = entry.metallic.value_or(0.0f);
-    pbr.roughness = entry.roughness.value_or(0.5f);
+    pbr.metallic = float(std::clamp(entry.metallic.value_or(0.0), 0.0, 1.0));
+    pbr.roughness = float(std::clamp(entry.roughness.value_or(0.5), 0.0, 1.0));
     applyMetallicRoughness(pbr, material);
     return material;
   }
   material.diffuse = diffuse;
-  const Rgb specular = entry.specular.value_or(Rgb::Zero());
+  const Rgb specular = reflectanceOf(entry.specular.value_or(Rgb::Zero()));
   const bool usual = (specular == 0.5f).all();
   if (specular.maxCoeff() <= 0.0f || entry.illumination < 2) return material;
   if (entry.illumination == 3 || entry.illumination == 5) {
@@ -80,7 +46,7 @@ scene::Material materialOf(const Entry& entry, bool hasMap, Diagnosis& diagnosis
     return material;
   }
   material.glossy = specular;
-  material.lobeExponent = std::clamp(entry.exponent.value_or(16.0f), 1.0f, 1e4f);
+  material.lobeExponent = float(std::clamp(entry.exponent.value_or(16.0), 1.0, 1e4));
   const float most = (material.diffuse + material.glossy).maxCoeff();
   if (most > 1.0f) {
     material.diffuse /= most;
@@ -93,20 +59,38 @@ scene::Material materialOf(const Entry& entry, bool hasMap, Diagnosis& diagnosis
   return material;
 }
 
+bool isTransparent(const MtlEntry& entry) {
+  const double opacity = entry.opacity.value_or(1.0 - entry.transparency.value_or(0.0));
+  const int illumination = entry.illumination;
+  const bool mask =
+      std::any_of(entry.otherMaps.begin(), entry.otherMaps.end(), [](const auto& map) {
+        return map.first == "map_d" || map.first == "map_D" || map.first == "map_opacity" ||
+               map.first == "map_Tr";
+      });
+  return opacity < 0.999 || mask || illumination == 4 || illumination == 6 || illumination == 7 ||
+         illumination == 9;
+}
+
+bool isRelief(std::string_view key) {
+  for (const std::string_view known :
+       {"bump", "map_bump", "map_Bump", "norm", "map_norm", "disp", "map_disp", "map_Disp"}) {
+    if (key == known) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-Result<int> readTextureFile(const std::filesystem::path& path, scene::Scene& scene,
-                            LinkedFiles& files, Diagnosis& diagnosis) {
+Result<int> readTextureFile(const FileFinder::Found& found, scene::Scene& scene, LinkedFiles& files,
+                            Diagnosis& diagnosis) {
+  const std::filesystem::path& path = found.path;
   const auto missing = [&](const std::string& why) {
-    diagnosis.add(Severity::Warning, "texture-unreadable", 1,
-                  "base-colour textures could not be read; the colour stands alone", why);
+    diagnosis.lose(Severity::Warning, "texture-unreadable", 1,
+                   "base-colour textures could not be read; the colour stands alone", why);
     return -1;
   };
   files.note(path);
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return missing(path.string() + " does not exist");
-  }
+  if (!found.exists) return missing(path.string() + " does not exist");
   if (!files.mayRead(path)) return files.outside("a texture", path.string());
   const Result<std::vector<std::byte>> bytes = files.read(path);
   if (!bytes) return missing(bytes.error().message);
@@ -114,85 +98,128 @@ Result<int> readTextureFile(const std::filesystem::path& path, scene::Scene& sce
   files.budget().release(bytes->size());
   if (!texture && !isReadablePicture(*bytes)) return missing(texture.error().message);
   if (!texture) return texture.error();
+  if (found.elsewhere) {
+    diagnosis.add(Severity::Note, "file-found-beside", 1,
+                  "files were not where their names say; those of the same name beside the scene "
+                  "were read",
+                  path.string());
+  }
   texture->name = path.filename().string();
   scene.textures.push_back(std::move(*texture));
   return int(scene.textures.size() - 1);
 }
 
-Status readMtl(const std::filesystem::path& path, scene::Scene& scene,
-               std::map<std::string, int, std::less<>>& known,
-               std::set<std::filesystem::path>& libraries, LinkedFiles& files,
-               Diagnosis& diagnosis) {
-  files.note(path);
+Result<int> MtlReader::texture(const MtlMap& map) {
+  if (map.name.empty()) return -1;
+  const FileFinder::Found found = finder_.find(folder_, map.name, sceneFolder_);
+  const auto [place, isNew] = textures_.try_emplace({found.path, map.clamp}, -1);
+  if (isNew) {
+    const Result<int> read = readTextureFile(found, scene_, files_, diagnosis_);
+    if (!read) return read.error();
+    place->second = *read;
+    if (*read >= 0 && map.clamp) {
+      scene::Texture& texture = scene_.textures[std::size_t(*read)];
+      texture.wrapU = texture.wrapV = scene::Wrap::ClampToEdge;
+    }
+  }
+  return place->second;
+}
+
+void MtlReader::tellUnread(const MtlEntry& entry) {
+  const auto lose = [&](Severity severity, const char* code, const char* what,
+                        const std::string& detail = {}) {
+    diagnosis_.lose(severity, code, 1, what,
+                    detail.empty() ? entry.name : entry.name + ": " + detail);
+  };
+  if (isTransparent(entry)) {
+    lose(Severity::Warning, "alpha-ignored",
+         "materials are (partly) transparent and are taken as opaque");
+  }
+  for (const Rgb& color :
+       {entry.diffuse.value_or(Rgb::Zero()), entry.specular.value_or(Rgb::Zero())}) {
+    if (color.maxCoeff() > 1.0f || color.minCoeff() < 0.0f) {
+      lose(Severity::Warning, "reflectance-clamped",
+           "reflectances (Kd, Ks) are outside 0 to 1 and were clamped; divide by 255 what is "
+           "counted to 255");
+      break;
+    }
+  }
+  if (!entry.diffuseMap.ignored.empty()) {
+    lose(Severity::Warning, "texture-option-ignored",
+         "textures have options that are not read and change their colours or place; bake them "
+         "into the picture",
+         entry.diffuseMap.ignored);
+  }
+  for (const auto& [key, name] : entry.otherMaps) {
+    files_.note(finder_.find(folder_, name, sceneFolder_).path);  // of no use here, but theirs
+    if (isRelief(key)) {
+      lose(Severity::Note, "relief-ignored",
+           "maps of relief (bump, normals, displacement) were left out: surfaces are as smooth as "
+           "their meshes; `lambent rtt` bakes relief",
+           key);
+    } else if (key != "map_d" && key != "map_Ka") {
+      lose(Severity::Note, "map-ignored",
+           "maps other than the base colour were left out: their factors hold everywhere", key);
+    }
+  }
+  for (const std::string& key : entry.layers) {
+    lose(Severity::Note, "layer-ignored",
+         "layers of materials (sheen, clearcoat, anisotropy) were left out: the surface below is "
+         "seen alone",
+         key);
+  }
+  for (const std::string& key : entry.unknown) {
+    lose(Severity::Note, "material-statement-ignored",
+         "statements of material files are not known and were left out", key);
+  }
+}
+
+Status MtlReader::add(const MtlEntry& entry) {
+  const Result<int> picture = texture(entry.diffuseMap);
+  if (!picture) return picture.error();
+  tellUnread(entry);
+  const int index = int(scene_.materials.size());
+  if (!materials_.try_emplace(entry.name, index).second) return Status::ok();
+  materials_.try_emplace(std::string(withoutComment(entry.name)), index);
+  scene::Material material = materialOf(entry, *picture >= 0, diagnosis_);
+  material.baseColorTexture = *picture;
+  scene_.materials.push_back(std::move(material));
+  if (*picture >= 0 && !entry.diffuseMap.uv.isIdentity()) uvs_[index] = entry.diffuseMap.uv;
+  return Status::ok();
+}
+
+int MtlReader::find(std::string_view name) const {
+  auto known = materials_.find(name);
+  if (known == materials_.end()) known = materials_.find(withoutComment(name));
+  return known == materials_.end() ? -1 : known->second;
+}
+
+UvTransform MtlReader::uvOf(int material) const {
+  const auto known = uvs_.find(material);
+  return known == uvs_.end() ? UvTransform() : known->second;
+}
+
+Status MtlReader::read(const std::filesystem::path& path, const std::filesystem::path& scene) {
+  files_.note(path);
+  const auto missing = [&](const char* why) {
+    diagnosis_.lose(Severity::Warning, "material-file-missing", 1, why, path.string());
+    return Status::ok();
+  };
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    diagnosis.add(Severity::Warning, "material-file-missing", 1,
-                  "material files do not exist; their materials are grey", path.string());
-    return Status::ok();
+    return missing(
+        "material files do not exist; their materials are grey. Put them beside the scene");
   }
-  if (!files.mayRead(path)) return files.outside("a material library", path.string());
-  if (!libraries.insert(std::filesystem::weakly_canonical(path, error)).second) return Status::ok();
-  const Result<std::vector<std::byte>> bytes = files.read(path);
-  if (!bytes) {
-    diagnosis.add(Severity::Warning, "material-file-missing", 1,
-                  "material files could not be read; their materials are grey", path.string());
-    return Status::ok();
-  }
-  std::vector<Entry> entries;
-  TextCursor cursor(asText(*bytes));
-  while (cursor.nextLine()) {
-    const std::string_view key = cursor.word();
-    if (key == "newmtl") {
-      entries.emplace_back();
-      entries.back().name = cursor.rest();
-      continue;
-    }
-    if (entries.empty()) continue;
-    Entry& entry = entries.back();
-    if (key == "Kd") {
-      entry.diffuse = color(cursor);
-    } else if (key == "Ks") {
-      entry.specular = color(cursor);
-    } else if (key == "Ns") {
-      entry.exponent = cursor.number();
-    } else if (key == "Pm") {
-      entry.metallic = cursor.number();
-    } else if (key == "Pr") {
-      entry.roughness = cursor.number();
-    } else if (key == "illum") {
-      const float value = cursor.number().value_or(2.0f);
-      entry.illumination = value >= 0.0f && value <= 10.0f ? int(value) : 2;
-    } else if (key == "map_Kd") {
-      entry.diffuseMap = mapName(cursor);
-    } else if (key.starts_with("map_") || key == "bump" || key == "norm" || key == "disp" ||
-               key == "decal" || key == "refl") {
-      files.note(path.parent_path() / mapName(cursor));  // of no use to us, but the person's
-    } else if (key == "d") {
-      entry.transparent = cursor.number().value_or(1.0f) < 0.999f;
-    }
-  }
-  std::map<std::string, int> textures;
-  for (const Entry& entry : entries) {
-    int texture = -1;
-    if (!entry.diffuseMap.empty()) {
-      const auto [place, isNew] = textures.try_emplace(entry.diffuseMap, -1);
-      if (isNew) {
-        const Result<int> read =
-            readTextureFile(path.parent_path() / entry.diffuseMap, scene, files, diagnosis);
-        if (!read) return read.error();
-        place->second = *read;
-      }
-      texture = place->second;
-    }
-    scene::Material material = materialOf(entry, texture >= 0, diagnosis);
-    material.baseColorTexture = texture;
-    if (entry.transparent) {
-      diagnosis.add(Severity::Warning, "alpha-ignored", 1,
-                    "materials are (partly) transparent and are taken as opaque", entry.name);
-    }
-    if (known.try_emplace(entry.name, int(scene.materials.size())).second) {
-      scene.materials.push_back(std::move(material));
-    }
+  if (!files_.mayRead(path)) return files_.outside("a material library", path.string());
+  if (!read_.insert(std::filesystem::weakly_canonical(path, error)).second) return Status::ok();
+  const Result<std::vector<std::byte>> bytes = files_.read(path);
+  if (!bytes) return missing("material files could not be read; their materials are grey");
+  const Result<std::string_view> text = textOf(*bytes, path.string());
+  if (!text) return text.error();
+  folder_ = path.parent_path();
+  sceneFolder_ = scene;
+  for (const MtlEntry& entry : readMtlEntries(*text)) {
+    if (Status status = add(entry); !status) return status;
   }
   return Status::ok();
 }

@@ -3,7 +3,6 @@
 #include "lambent/image/decode.h"
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/shapes.h"
-#include "lambent/scene_io/polygon.h"
 #include "lambent/scene_io/test_files.h"
 
 namespace lambent::scene_io {
@@ -153,38 +152,6 @@ TEST_F(Obj, VertexColoursAreSrgb) {
   ASSERT_EQ(s.meshes[0].colors.size(), 3u);
   EXPECT_NEAR(s.meshes[0].colors[0].z(), 0.2140411f, 1e-5f);
   EXPECT_TRUE(s.materials[0].diffuse.isApprox(Rgb::Ones()));
-}
-
-TEST_F(Obj, PolygonsNeedNotBeConvex) {
-  // An arrowhead whose fan from the first corner would cover what is outside.
-  const std::vector<Vec3> arrow = {{-1, 0, 0}, {0, 0.5f, 0}, {1, 0, 0}, {0, 2, 0}};
-  for (int start = 0; start < 4; ++start) {
-    std::vector<Vec3> corners;
-    for (int i = 0; i < 4; ++i) corners.push_back(arrow[(start + i) % 4]);
-    std::vector<scene::Triangle> triangles;
-    cutPolygon(corners, triangles);
-    ASSERT_EQ(triangles.size(), 2u);
-    for (const auto& [a, b, c] : triangles) {
-      const Vec3 ab = corners[b] - corners[a], ac = corners[c] - corners[a];
-      EXPECT_GT(ab.x() * ac.y() - ab.y() * ac.x(), 0.0f);
-    }
-  }
-  std::vector<Vec3> star;
-  for (int i = 0; i < 40; ++i) {
-    const float r = i % 2 ? 1.0f : 0.3f, a = float(2.0 * kPi * i / 40);
-    star.push_back(Vec3(r * std::cos(a), 0.0f, -r * std::sin(a)));
-  }
-  std::vector<scene::Triangle> triangles;
-  cutPolygon(star, triangles);
-  ASSERT_EQ(triangles.size(), 38u);
-  double area = 0.0, expected = 40 * 0.5 * 0.3 * std::sin(2.0 * kPi / 40);
-  for (const auto& [a, b, c] : triangles) {
-    const Vec3 ab = star[b] - star[a], ac = star[c] - star[a];
-    const double twice = double(ab.z()) * ac.x() - double(ab.x()) * ac.z();
-    EXPECT_GT(twice, 0.0);
-    area += 0.5 * twice;
-  }
-  EXPECT_NEAR(area, expected, 1e-6);
 }
 
 TEST_F(Obj, BadFilesNameThePlace) {

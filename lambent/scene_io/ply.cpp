@@ -1,391 +1,261 @@
 #include "lambent/scene_io/ply.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <charconv>
-#include <cstring>
+#include <numeric>
+#include <span>
 #include <string>
+#include <unordered_map>
 
-#include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/diagnosis.h"
+#include "lambent/scene_io/far_origin.h"
+#include "lambent/scene_io/file_finder.h"
 #include "lambent/scene_io/linked_files.h"
+#include "lambent/scene_io/mesh_bytes.h"
 #include "lambent/scene_io/mtl.h"
-#include "lambent/scene_io/ply_header.h"
-#include "lambent/scene_io/polygon.h"
-#include "lambent/scene_io/text_cursor.h"
+#include "lambent/scene_io/ply_data.h"
+#include "lambent/scene_io/text_file.h"
+#include "lambent/scene_io/vertex_colors.h"
 
 namespace lambent::scene_io {
 namespace {
 
-/// Numbers from the body, one after another. Every read is checked against the end; after the
-/// first failure all reads yield 0 and ok() is false.
-class Body {
- public:
-  Body(std::string_view bytes, PlyFormat format)
-      : at_(bytes.data()),
-        end_(at_ + bytes.size()),
-        ascii_(format == PlyFormat::Ascii),
-        swap_((format == PlyFormat::BinaryBig) != (std::endian::native == std::endian::big)) {}
-
-  bool ok() const { return ok_; }
-  bool ascii() const { return ascii_; }
-  std::size_t left() const { return std::size_t(end_ - at_); }
-
-  double number(PlyType type) { return ascii_ ? text() : binary(type); }
-
-  /// Skips `size` bytes of a binary body.
-  void skip(std::size_t size) {
-    if (size > left()) {
-      ok_ = false;
-      at_ = end_;
-    } else {
-      at_ += size;
-    }
+/// A vertex as a corner of a triangle has it.
+struct PlyCorner {
+  std::uint32_t vertex = 0;
+  Vec2 uv = Vec2::Zero();
+  Rgb color = Rgb::Zero();
+  bool operator==(const PlyCorner& other) const {
+    return vertex == other.vertex && uv == other.uv && (color == other.color).all();
   }
-
- private:
-  double text() {
-    while (at_ != end_ && static_cast<unsigned char>(*at_) <= ' ') ++at_;
-    if (at_ != end_ && *at_ == '+') ++at_;
-    double value = 0.0;
-    const auto [stop, error] = std::from_chars(at_, end_, value);
-    if (error == std::errc::invalid_argument) {
-      ok_ = false;
-      at_ = end_;
-      return 0.0;
-    }
-    at_ = stop;
-    return value;
-  }
-
-  template <class T>
-  double raw() {
-    if (left() < sizeof(T)) {
-      ok_ = false;
-      at_ = end_;
-      return 0.0;
-    }
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), at_, sizeof(T));
-    at_ += sizeof(T);
-    if (swap_) std::reverse(bytes.begin(), bytes.end());
-    return double(std::bit_cast<T>(bytes));
-  }
-
-  double binary(PlyType type) {
-    switch (type) {
-      case PlyType::Int8:
-        return raw<std::int8_t>();
-      case PlyType::Uint8:
-        return raw<std::uint8_t>();
-      case PlyType::Int16:
-        return raw<std::int16_t>();
-      case PlyType::Uint16:
-        return raw<std::uint16_t>();
-      case PlyType::Int32:
-        return raw<std::int32_t>();
-      case PlyType::Uint32:
-        return raw<std::uint32_t>();
-      case PlyType::Float32:
-        return raw<float>();
-      case PlyType::Float64:
-        break;
-    }
-    return raw<double>();
-  }
-
-  const char *at_, *end_;
-  bool ascii_, swap_, ok_ = true;
 };
 
-/// What a property of a vertex is for.
-enum class Role { None, X, Y, Z, NX, NY, NZ, U, V, Red, Green, Blue };
-
-Role roleOf(std::string_view name) {
-  constexpr std::pair<std::string_view, Role> kRoles[] = {{"x", Role::X},
-                                                          {"y", Role::Y},
-                                                          {"z", Role::Z},
-                                                          {"nx", Role::NX},
-                                                          {"ny", Role::NY},
-                                                          {"nz", Role::NZ},
-                                                          {"s", Role::U},
-                                                          {"t", Role::V},
-                                                          {"u", Role::U},
-                                                          {"v", Role::V},
-                                                          {"texture_u", Role::U},
-                                                          {"texture_v", Role::V},
-                                                          {"s0", Role::U},
-                                                          {"t0", Role::V},
-                                                          {"red", Role::Red},
-                                                          {"green", Role::Green},
-                                                          {"blue", Role::Blue},
-                                                          {"r", Role::Red},
-                                                          {"g", Role::Green},
-                                                          {"b", Role::Blue},
-                                                          {"diffuse_red", Role::Red},
-                                                          {"diffuse_green", Role::Green},
-                                                          {"diffuse_blue", Role::Blue}};
-  for (const auto& [known, role] : kRoles) {
-    if (name == known) return role;
+struct PlyCornerHash {
+  std::size_t operator()(const PlyCorner& c) const {
+    std::size_t h = c.vertex;
+    for (const float value : {c.uv.x(), c.uv.y(), c.color.x(), c.color.y(), c.color.z()}) {
+      h = h * 0x9e3779b97f4a7c15ull ^ std::hash<float>()(value);
+    }
+    return h ^ h >> 29;
   }
-  return Role::None;
-}
+};
 
 class PlyReader {
  public:
-  PlyReader(const std::filesystem::path& path, const PlyHeader& header, Body body,
-            LinkedFiles& files)
-      : path_(path), name_(path.string()), header_(header), body_(body), files_(files) {}
+  PlyReader(const std::filesystem::path& path, const PlyHeader& header, LinkedFiles& files)
+      : path_(path), name_(path.string()), header_(header), files_(files) {}
 
-  Result<LoadedScene> read();
+  Result<LoadedScene> read(PlyBody body);
 
  private:
   Error bad(const std::string& message) const { return report::badInput(name_ + ": " + message); }
-  Error truncated(const PlyElement& element, std::size_t index) const {
-    return bad("the file is truncated or damaged in element " + element.name + " " +
-               std::to_string(index) + " of " + std::to_string(element.count) +
-               "; copy or export it again");
-  }
-  Status readVertices(const PlyElement& element);
-  Status readFaces(const PlyElement& element);
-  Status skip(const PlyElement& element);
-  /// The length of a list whose items still have to follow in the body.
-  Result<std::size_t> listLength(const PlyElement& element, const PlyProperty& property,
-                                 std::size_t index);
-  /// Makes triangles of the corners in list_.
-  Status addFace(const PlyElement& element, std::size_t index);
+  /// What was subtracted from the positions.
+  Vec3d originOf() const;
+  std::vector<Rgb> linearColors(const PlyColors& colors);
+  /// The vertices as they are, or for each texture those of its triangles, one for each distinct
+  /// corner. `groups` are the vertices' numbers.
+  scene::Mesh wholeMesh();
+  scene::Mesh meshOf(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& groups);
+  Status addMeshes();
+  Status addMesh(scene::Mesh mesh, const std::vector<std::uint32_t>& groups, int texture);
+  Result<int> materialWith(int texture, bool hasUvs, bool hasColors);
+  void tellHeader();
 
   std::filesystem::path path_;
   std::string name_;
   const PlyHeader& header_;
-  Body body_;
   LinkedFiles& files_;
-  scene::Mesh mesh_;
-  std::vector<double> list_;
-  std::vector<Vec3> polygon_;
-  std::vector<scene::Triangle> cut_;
+  PlyData data_;
+  std::vector<Rgb> colors_, faceColors_;  ///< linear
+  LoadedScene loaded_;
   Diagnosis diagnosis_;
 };
 
-Result<std::size_t> PlyReader::listLength(const PlyElement& element, const PlyProperty& property,
-                                          std::size_t index) {
-  const double length = body_.number(property.countType);
-  const std::size_t itemSize = body_.ascii() ? 2 : sizeOf(property.type);
-  // An ascii item takes a digit and a blank, the last one perhaps no blank.
-  if (!body_.ok() || !(length >= 0.0) || length * double(itemSize) > double(body_.left()) + 1.0) {
-    return truncated(element, index);
+Vec3d PlyReader::originOf() const {
+  std::vector<bool> used(data_.positions.size());
+  for (const scene::Triangle& triangle : data_.triangles) {
+    for (std::uint32_t vertex : triangle) used[vertex] = true;
   }
-  return std::size_t(length);
+  DoubleBox box;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) box.extend(data_.positions[i]);
+  }
+  return farOrigin(box);
 }
 
-Status PlyReader::readVertices(const PlyElement& element) {
-  std::vector<Role> roles;
-  bool has[12] = {};
-  bool integerColor = false;
-  float colorScale = 1.0f;
-  for (const PlyProperty& property : element.properties) {
-    const Role role = property.isList ? Role::None : roleOf(property.name);
-    roles.push_back(has[int(role)] ? Role::None : role);
-    if (role == Role::Red && !isFloat(property.type)) {
-      integerColor = true;
-      colorScale = sizeOf(property.type) == 1 ? 1.0f / 255.0f : 1.0f / 65535.0f;
-    }
-    has[int(role)] = role != Role::None;
+/// Integers are sRGB; floats are linear, unless they are counted beyond 1.
+std::vector<Rgb> PlyReader::linearColors(const PlyColors& colors) {
+  std::vector<Rgb> linear = colors.values;
+  if (linear.empty()) return linear;
+  float white = 255.0f;
+  if (isFloat(colors.type)) {
+    white = whiteOf(linear);
+    noteWhite(white, diagnosis_);
+    if (white == 1.0f) return linear;
+  } else if (sizeOf(colors.type) > 1) {
+    white = whiteOfIntegers(linear);
   }
-  if (!has[int(Role::X)] || !has[int(Role::Y)] || !has[int(Role::Z)]) {
-    return bad("its vertices have no x, y and z");
+  for (Rgb& color : linear) {
+    // Bytes that were declared as signed.
+    if (colors.type == PlyType::Int8) color = (color < 0.0f).select(color + 256.0f, color);
+    color = linearColor(color, white);
   }
-  const bool normals = has[int(Role::NX)] && has[int(Role::NY)] && has[int(Role::NZ)];
-  const bool uvs = has[int(Role::U)] && has[int(Role::V)];
-  const bool colors = has[int(Role::Red)] && has[int(Role::Green)] && has[int(Role::Blue)];
-  mesh_.positions.reserve(element.count);
-  if (normals) mesh_.normals.reserve(element.count);
-  if (uvs) mesh_.uvs.reserve(element.count);
-  if (colors) mesh_.colors.reserve(element.count);
-
-  for (std::size_t i = 0; i < element.count; ++i) {
-    float values[12] = {};
-    for (std::size_t p = 0; p < roles.size(); ++p) {
-      const PlyProperty& property = element.properties[p];
-      if (property.isList) {
-        const Result<std::size_t> length = listLength(element, property, i);
-        if (!length) return length.error();
-        for (std::size_t k = 0; k < *length; ++k) body_.number(property.type);
-      } else {
-        values[int(roles[p])] = float(body_.number(property.type));
-      }
-    }
-    if (!body_.ok()) return truncated(element, i);
-    const auto value = [&](Role role) { return values[int(role)]; };
-    mesh_.positions.emplace_back(value(Role::X), value(Role::Y), value(Role::Z));
-    if (normals) mesh_.normals.emplace_back(value(Role::NX), value(Role::NY), value(Role::NZ));
-    // As in OBJ, v counts from the bottom of the image.
-    if (uvs) mesh_.uvs.emplace_back(value(Role::U), 1.0f - value(Role::V));
-    if (colors) {
-      const Rgb color(value(Role::Red), value(Role::Green), value(Role::Blue));
-      const auto linear = [&](float c) { return radiometry::srgbDecode(c * colorScale); };
-      mesh_.colors.push_back(
-          integerColor ? Rgb(linear(color.x()), linear(color.y()), linear(color.z())) : color);
-    }
-  }
-  return Status::ok();
+  return linear;
 }
 
-Status PlyReader::addFace(const PlyElement& element, std::size_t index) {
-  const bool strip = element.name == "tristrips";
-  const auto face = [&] { return element.name + " " + std::to_string(index); };
-  const std::size_t vertices = mesh_.positions.size();
-  for (double item : list_) {
-    if (strip && item == -1.0) continue;
-    if (!(item >= 0.0) || item >= double(vertices)) {
-      return bad(face() + " refers to vertex " +
-                 std::to_string(std::int64_t(std::clamp(item, -9e18, 9e18))) + " of " +
-                 std::to_string(vertices) + "; export the file again");
-    }
+scene::Mesh PlyReader::wholeMesh() {
+  scene::Mesh mesh;
+  mesh.positions.reserve(data_.positions.size());
+  for (const Vec3d& p : data_.positions) {
+    mesh.positions.push_back((p - loaded_.scene.origin).cast<float>());
   }
-  const auto corner = [&](std::size_t i) { return std::uint32_t(list_[i]); };
-  if (strip) {
-    std::size_t start = 0;
-    for (std::size_t i = 0; i <= list_.size(); ++i) {
-      if (i < list_.size() && list_[i] != -1.0) continue;
-      for (std::size_t k = start; k + 2 < i; ++k) {
-        const std::size_t odd = (k - start) % 2;
-        mesh_.triangles.push_back({corner(k), corner(k + 1 + odd), corner(k + 2 - odd)});
-      }
-      start = i + 1;
-    }
-    return Status::ok();
-  }
-  if (list_.size() == 3) {
-    mesh_.triangles.push_back({corner(0), corner(1), corner(2)});
-    return Status::ok();
-  }
-  if (list_.size() < 3) {
-    diagnosis_.add(Severity::Warning, "small-faces", 1,
-                   "faces have fewer than three corners and were left out", face());
-    return Status::ok();
-  }
-  polygon_.clear(), cut_.clear();
-  for (std::size_t i = 0; i < list_.size(); ++i) polygon_.push_back(mesh_.positions[corner(i)]);
-  cutPolygon(polygon_, cut_);
-  for (const auto& [a, b, c] : cut_) {
-    mesh_.triangles.push_back({corner(a), corner(b), corner(c)});
-  }
-  return Status::ok();
+  mesh.normals = std::move(data_.normals);
+  mesh.uvs = std::move(data_.uvs);
+  mesh.colors = std::move(colors_);
+  mesh.triangles = std::move(data_.triangles);
+  return mesh;
 }
 
-Status PlyReader::readFaces(const PlyElement& element) {
-  const bool strip = element.name == "tristrips";
-  if (!strip) mesh_.triangles.reserve(std::min(element.count, body_.left()));
-  for (std::size_t i = 0; i < element.count; ++i) {
-    list_.clear();
-    bool found = false;
-    for (const PlyProperty& property : element.properties) {
-      if (!property.isList) {
-        body_.number(property.type);
-        continue;
+scene::Mesh PlyReader::meshOf(std::span<const std::uint32_t> triangles,
+                              std::vector<std::uint32_t>& groups) {
+  scene::Mesh mesh;
+  std::unordered_map<PlyCorner, std::uint32_t, PlyCornerHash> known;
+  const auto vertexOf = [&](const PlyCorner& corner) {
+    const auto [entry, isNew] = known.try_emplace(corner, std::uint32_t(groups.size()));
+    if (!isNew) return entry->second;
+    const std::uint32_t v = corner.vertex;
+    groups.push_back(v);
+    mesh.positions.push_back((data_.positions[v] - loaded_.scene.origin).cast<float>());
+    if (!data_.normals.empty()) mesh.normals.push_back(data_.normals[v]);
+    if (!data_.cornerUvs.empty() || !data_.uvs.empty()) mesh.uvs.push_back(corner.uv);
+    if (!colors_.empty() || !faceColors_.empty()) mesh.colors.push_back(corner.color);
+    return entry->second;
+  };
+  for (const std::uint32_t t : triangles) {
+    scene::Triangle triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+      PlyCorner corner{data_.triangles[t][i]};
+      if (!data_.cornerUvs.empty()) {
+        corner.uv = data_.cornerUvs[t][i];
+      } else if (!data_.uvs.empty()) {
+        corner.uv = data_.uvs[corner.vertex];
       }
-      const Result<std::size_t> length = listLength(element, property, i);
-      if (!length) return length.error();
-      const bool wanted = property.name == "vertex_indices" || property.name == "vertex_index";
-      found = found || wanted;
-      for (std::size_t k = 0; k < *length; ++k) {
-        const double item = body_.number(property.type);
-        if (wanted) list_.push_back(item);
+      if (!corner.uv.allFinite()) corner.uv = Vec2::Zero();  // not a number is not even itself
+      if (!faceColors_.empty()) {
+        corner.color = faceColors_[t];
+      } else if (!colors_.empty()) {
+        corner.color = colors_[corner.vertex];
       }
+      if (!corner.color.isFinite().all()) corner.color = Rgb::Ones();
+      triangle[i] = vertexOf(corner);
     }
-    if (!body_.ok()) return truncated(element, i);
-    if (!found) return bad("its faces have no list vertex_indices");
-    if (Status status = addFace(element, i); !status) {
-      return status;
-    }
+    mesh.triangles.push_back(triangle);
   }
-  return Status::ok();
+  return mesh;
 }
 
-Status PlyReader::skip(const PlyElement& element) {
-  const bool plain = std::none_of(element.properties.begin(), element.properties.end(),
-                                  [](const PlyProperty& p) { return p.isList; });
-  if (element.properties.empty()) return Status::ok();
-  if (plain && !body_.ascii()) {
-    std::size_t size = 0;
-    for (const PlyProperty& property : element.properties) size += sizeOf(property.type);
-    body_.skip(size * element.count);  // the header's check bounds the product
-    return body_.ok() ? Status::ok() : Status(truncated(element, 0));
-  }
-  for (std::size_t i = 0; i < element.count; ++i) {
-    for (const PlyProperty& property : element.properties) {
-      std::size_t items = 1;
-      if (property.isList) {
-        const Result<std::size_t> length = listLength(element, property, i);
-        if (!length) return length.error();
-        items = *length;
-      }
-      for (std::size_t k = 0; k < items; ++k) body_.number(property.type);
-    }
-    if (!body_.ok()) return truncated(element, i);
-  }
-  return Status::ok();
-}
-
-Result<LoadedScene> PlyReader::read() {
-  bool hasVertices = false;
-  for (const PlyElement& element : header_.elements) {
-    // Each property of each element takes a byte at least, so a count beyond what is left is a lie,
-    // and is found out before memory is asked for.
-    const std::size_t least = std::max<std::size_t>(element.leastSize(body_.ascii()), 1);
-    if (!element.properties.empty() && element.count > (body_.left() + 1) / least) {
-      return bad("its header promises " + std::to_string(element.count) + " of element " +
-                 element.name + ", but only " + std::to_string(body_.left()) +
-                 " bytes follow: the file is truncated or damaged");
-    }
-    const std::string what = name_ + ": element " + element.name;
-    Status status = files_.budget().hold(element.count * element.sizeInMemory(), what);
-    if (!status) return status.error();
-    if (element.isVertices()) {
-      if (hasVertices) return bad("its header has two elements vertex");
-      if (element.count > 0xfffffffeu) return bad("it has more vertices than 32 bits can number");
-      hasVertices = true;
-      status = readVertices(element);
-    } else if (element.isFaces()) {
-      if (!hasVertices) return bad("its faces come before its vertices, which is not read");
-      status = readFaces(element);
+Result<int> PlyReader::materialWith(int texture, bool hasUvs, bool hasColors) {
+  scene::Scene& scene = loaded_.scene;
+  scene::Material material;
+  if (std::size_t(texture) < header_.textureFiles.size()) {
+    const std::string& picture = header_.textureFiles[std::size_t(texture)];
+    const std::filesystem::path folder = path_.parent_path();
+    const FileFinder::Found found = FileFinder(files_).find(folder, picture, folder);
+    files_.note(found.path);
+    if (hasUvs) {
+      const Result<int> read = readTextureFile(found, scene, files_, diagnosis_);
+      if (!read) return read.error();
+      material.baseColorTexture = *read;
     } else {
-      status = skip(element);
+      diagnosis_.lose(Severity::Warning, "texture-without-uvs", 1,
+                      "textures were left out: there are no texture coordinates to place them",
+                      picture);
     }
-    if (!status) return status.error();
   }
-  if (mesh_.triangles.empty()) {
-    return bad(mesh_.positions.empty()
-                   ? "holds no triangles"
-                   : "holds " + std::to_string(mesh_.positions.size()) +
-                         " points and no triangles; reconstruct a surface first");
-  }
-  mesh_.name = path_.stem().string();
+  if (hasColors || material.baseColorTexture >= 0) material.diffuse = Rgb::Ones();
+  scene.materials.push_back(std::move(material));
+  return int(scene.materials.size() - 1);
+}
+
+Status PlyReader::addMesh(scene::Mesh mesh, const std::vector<std::uint32_t>& groups, int texture) {
+  mesh.name = path_.stem().string();
+  if (!data_.textures.empty() && texture > 0) mesh.name += "/" + std::to_string(texture);
+  const bool hasUvs = !mesh.uvs.empty(), hasColors = !mesh.colors.empty();
   FinishOptions finish;
   finish.front = Front::Normals;
-  const bool colored = !mesh_.colors.empty();
-  if (Status status = finishMesh(mesh_, finish, name_, "the mesh", diagnosis_); !status) {
-    return status.error();
+  finish.groups = groups;
+  if (Status status = finishMesh(mesh, finish, name_, "the mesh", diagnosis_); !status) {
+    return status;
   }
-  if (mesh_.triangles.empty()) return bad("all its triangles are without area");
+  if (mesh.triangles.empty()) return Status::ok();
+  const Result<int> material = materialWith(texture, hasUvs, hasColors);
+  if (!material) return material.error();
+  mesh.material = *material;
+  loaded_.scene.meshes.push_back(std::move(mesh));
+  return Status::ok();
+}
 
-  LoadedScene loaded;
-  scene::Material material;
-  const std::filesystem::path picture = path_.parent_path() / header_.textureFile;
-  if (!header_.textureFile.empty()) files_.note(picture);
-  if (!header_.textureFile.empty() && !mesh_.uvs.empty()) {
-    const Result<int> texture = readTextureFile(picture, loaded.scene, files_, diagnosis_);
-    if (!texture) return texture.error();
-    material.baseColorTexture = *texture;
+void PlyReader::tellHeader() {
+  if (header_.skippedLines > 0) {
+    diagnosis_.add(Severity::Note, "header-lines-skipped", header_.skippedLines,
+                   "lines of the header are nothing that PLY knows and were skipped",
+                   header_.firstSkipped);
   }
-  if (colored || material.baseColorTexture >= 0) material.diffuse = Rgb::Ones();
-  loaded.scene.materials.push_back(std::move(material));
-  loaded.scene.meshes.push_back(std::move(mesh_));
-  loaded.findings = diagnosis_.findings();
-  loaded.linkedFiles = files_.noted();
-  return loaded;
+  if (header_.textureFiles.size() > 1 && data_.textures.empty()) {
+    diagnosis_.lose(Severity::Warning, "textures-ignored", header_.textureFiles.size() - 1,
+                    "textures were left out: faces do not say (texnumber) which is theirs, and "
+                    "have the first");
+  }
+}
+
+Status PlyReader::addMeshes() {
+  if (data_.cornerUvs.empty() && faceColors_.empty() && data_.textures.empty()) {
+    return addMesh(wholeMesh(), {}, 0);
+  }
+  std::vector<std::uint32_t> order(data_.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto textureOf = [&](std::uint32_t t) {
+    return data_.textures.empty() ? 0 : data_.textures[t];
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return textureOf(a) < textureOf(b); });
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    const int texture = textureOf(order[first]);
+    while (last < order.size() && textureOf(order[last]) == texture) ++last;
+    std::vector<std::uint32_t> groups;
+    scene::Mesh mesh = meshOf(std::span(order).subspan(first, last - first), groups);
+    if (Status fits = files_.budget().hold(bytesOf(mesh), name_ + ": the mesh"); !fits) return fits;
+    if (Status added = addMesh(std::move(mesh), groups, texture); !added) return added;
+  }
+  return Status::ok();
+}
+
+Result<LoadedScene> PlyReader::read(PlyBody body) {
+  Result<PlyData> data = readPlyData(header_, body, name_, files_.budget(), diagnosis_);
+  if (!data) return data.error();
+  data_ = std::move(*data);
+  if (data_.triangles.empty()) {
+    return bad(data_.positions.empty()
+                   ? "holds no triangles"
+                   : "holds " + std::to_string(data_.positions.size()) +
+                         " points and no triangles; reconstruct a surface first");
+  }
+  tellHeader();
+  loaded_.scene.origin = originOf();
+  noteFarOrigin(loaded_.scene.origin, diagnosis_);
+  colors_ = linearColors(data_.colors);
+  faceColors_ = linearColors(data_.faceColors);
+  if (!colors_.empty() && !faceColors_.empty()) {
+    diagnosis_.lose(Severity::Note, "face-colors-ignored", faceColors_.size(),
+                    "triangles have a colour of their own besides those of their vertices, which "
+                    "are taken");
+    faceColors_.clear();
+  }
+  const Status added = addMeshes();
+  if (!added) return added.error();
+  if (loaded_.scene.meshes.empty()) return bad("all its triangles are without area");
+  loaded_.findings = diagnosis_.findings();
+  loaded_.linkedFiles = files_.noted();
+  return std::move(loaded_);
 }
 
 }  // namespace
@@ -394,10 +264,11 @@ Result<LoadedScene> loadPly(const std::filesystem::path& path, const LoadOptions
   LinkedFiles files(path, options);
   const Result<std::vector<std::byte>> bytes = files.readScene();
   if (!bytes) return bytes.error();
-  const std::string_view text = asText(*bytes);
-  const Result<PlyHeader> header = readPlyHeader(text, path.string());
+  const Result<std::string_view> text = textOf(*bytes, path.string());
+  if (!text) return text.error();
+  const Result<PlyHeader> header = readPlyHeader(*text, path.string());
   if (!header) return header.error();
-  return PlyReader(path, *header, Body(text.substr(header->size), header->format), files).read();
+  return PlyReader(path, *header, files).read(PlyBody(text->substr(header->size), header->format));
 }
 
 }  // namespace lambent::scene_io

@@ -48,8 +48,9 @@ std::size_t PlyElement::leastSize(bool ascii) const {
 }
 
 std::size_t PlyElement::sizeInMemory() const {
-  if (isVertices()) return sizeof(float) * properties.size();
-  return isFaces() ? sizeof(scene::Triangle) : 0;
+  if (isVertices()) return sizeof(float) * properties.size() + 3 * sizeof(double);
+  const std::size_t corners = properties.size() > 1 ? 3 * sizeof(Vec2) + sizeof(Rgb) : 0;
+  return isFaces() ? sizeof(scene::Triangle) + corners : 0;
 }
 
 Result<PlyHeader> readPlyHeader(std::string_view text, const std::string& file) {
@@ -61,6 +62,9 @@ Result<PlyHeader> readPlyHeader(std::string_view text, const std::string& file) 
   if (!cursor.nextLine() || cursor.word() != "ply") {
     return report::badInput(file + ": is not a PLY file: it does not begin with \"ply\"");
   }
+  const std::size_t firstEnd = text.find_first_of("\r\n");
+  const bool returnAlone =
+      firstEnd + 1 < text.size() && text[firstEnd] == '\r' && text[firstEnd + 1] != '\n';
   bool hasFormat = false;
   std::size_t properties = 0;
   while (cursor.nextLine()) {
@@ -68,6 +72,8 @@ Result<PlyHeader> readPlyHeader(std::string_view text, const std::string& file) 
     if (key == "end_header") {
       if (!hasFormat) return bad("the header has no format");
       header.size = cursor.offset(text.data());
+      // Where lines end with a return alone, a line feed is the first byte of the body.
+      if (returnAlone && text[header.size - 1] == '\n') --header.size;
       return header;
     }
     if (key == "format") {
@@ -110,9 +116,9 @@ Result<PlyHeader> readPlyHeader(std::string_view text, const std::string& file) 
       if (++properties > kMostProperties) return bad("the header has too many properties");
       header.elements.back().properties.push_back(std::move(property));
     } else if (key == "comment") {
-      if (cursor.word() == "TextureFile") header.textureFile = cursor.rest();
+      if (cursor.word() == "TextureFile") header.textureFiles.emplace_back(cursor.rest());
     } else if (key != "obj_info" && !key.empty()) {
-      return bad("the header has a line that PLY does not know; the file is damaged");
+      if (header.skippedLines++ == 0) header.firstSkipped = "line " + std::to_string(cursor.line());
     }
   }
   return bad("the header has no end: the file is truncated");

@@ -30,18 +30,21 @@ struct PlyElement {
 
   /// Bytes that one of them takes in the file at the very least.
   std::size_t leastSize(bool ascii) const;
-  /// Bytes that one of them takes in memory: a float for each property of a vertex, a triangle for a
-  /// face, nothing for what is skipped.
+  /// Bytes that one of them takes in memory: a float for each property of a vertex and its
+  /// position in double besides, a triangle for a face and what belongs to its corners, nothing for what is skipped.
   std::size_t sizeInMemory() const;
   bool isVertices() const { return name == "vertex"; }
-  bool isFaces() const { return name == "face" || name == "tristrips"; }
+  bool isStrips() const { return name == "tristrips"; }
+  bool isFaces() const { return name == "face" || isStrips(); }
 };
 
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;
-  std::string textureFile;  ///< of "comment TextureFile NAME"
-  std::size_t size = 0;     ///< bytes up to the body
+  std::vector<std::string> textureFiles;  ///< of "comment TextureFile NAME", in sequence
+  std::size_t skippedLines = 0;           ///< that PLY does not know
+  std::string firstSkipped;               ///< "line 3"
+  std::size_t size = 0;                   ///< bytes up to the body
 };
 
 Result<PlyHeader> readPlyHeader(std::string_view text, const std::string& file);

@@ -1,12 +1,12 @@
 // Tokens and numbers out of a text file in memory, line by line, without copies.
 #pragma once
 
-#include <charconv>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
+
+#include "lambent/scene_io/text_number.h"
 
 namespace lambent::scene_io {
 
@@ -55,19 +55,16 @@ class TextCursor {
     return {at_, std::size_t(last - at_)};
   }
 
-  /// The next word as a number; nothing at the line's end or where the word is no number. Numbers
-  /// beyond float's range become infinite or 0.
-  std::optional<float> number() {
+  /// The next word as a number; nothing at the line's end or where the word is no number. A comment
+  /// may follow at once. Numbers beyond double's range become infinite or 0.
+  std::optional<double> number() {
     skipBlanks();
-    const char* first = at_;
-    if (first != lineEnd_ && *first == '+') ++first;
-    float value = 0.0f;
-    const auto [stop, error] = std::from_chars(first, lineEnd_, value);
-    if (error == std::errc::invalid_argument) return {};
-    if (stop != lineEnd_ && !isBlank(stop)) return {};
-    if (error == std::errc::result_out_of_range) value = outOfRange(first, stop);
+    const std::optional<ParsedNumber> parsed = parseNumber(at_, lineEnd_);
+    if (!parsed) return {};
+    const char* stop = parsed->end;
+    if (stop != lineEnd_ && !isBlank(stop) && *stop != '#') return {};
     at_ = stop;
-    return value;
+    return parsed->value;
   }
 
   std::size_t line() const { return line_; }
@@ -82,17 +79,6 @@ class TextCursor {
   }
   void skipBlanks() {
     while (at_ != lineEnd_ && isBlank(at_)) ++at_;
-  }
-  static float outOfRange(const char* first, const char* last) {
-    double wide = 0.0;
-    const auto result = std::from_chars(first, last, wide);
-    const bool tiny = result.ec == std::errc() && wide > -1.0 && wide < 1.0;
-    if (tiny) return 0.0f;
-    for (const char* p = first; p + 1 < last; ++p) {
-      if ((*p == 'e' || *p == 'E') && p[1] == '-') return 0.0f;
-    }
-    return *first == '-' ? -std::numeric_limits<float>::infinity()
-                         : std::numeric_limits<float>::infinity();
   }
 
   const char *next_, *end_;
