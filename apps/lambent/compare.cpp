@@ -227,7 +227,7 @@ Result<image::Image> readTelling(const std::filesystem::path& path, const Compar
     return finding.code == "exr-layers" && finding.count == 1 &&
            finding.message.find("left: variance (") != std::string::npos;
   });
-  console.report(picture->findings);
+  if (Status whole = console.accept(picture->findings); !whole) return whole.error();
   return std::move(picture->image);
 }
 

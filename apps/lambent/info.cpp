@@ -77,7 +77,8 @@ Result<Description> describeLight(std::string_view source, const ReadingArgument
   options.notFinite = sources::SourceOptions::NotFinite::Repair;
   const auto light = sources::parseSource(source, options);
   if (!light) return light.error();
-  if (tellFindings) console.report(light->findings);
+  if (tellFindings)
+    if (Status whole = console.accept(light->findings); !whole) return whole.error();
   return describe(light->value.project(5));
 }
 
@@ -136,7 +137,8 @@ Result<Whole> describeImage(const std::string& name, const ReadingArguments& rea
   if (!picture) return picture.error();
   Description d = describe(picture->image);
   const auto taken = takenFor(*picture);
-  if (!picture->codes || !taken) console.report(picture->findings);
+  if (!picture->codes || !taken)
+    if (Status whole = console.accept(picture->findings); !whole) return whole.error();
   if (!taken) {
     d.text += "no light by itself: its shape is that of no map; latlong:FILE takes it for one\n";
     return Whole{"image", d};

@@ -56,7 +56,7 @@ Result<image::Image> hazyPicture(const HazeArguments& haze, const MapArguments& 
                                  const sky::ResolvedSky& resolved, Console& console) {
   auto read = image::readPicture(haze.pictures[0]);
   if (!read) return read.error();
-  console.report(read->findings);
+  if (Status whole = console.accept(read->findings); !whole) return whole.error();
   const image::Image* const color = &read->image;
   const auto depth = image::read(haze.pictures[1]);
   if (!depth) return depth.error();

@@ -212,7 +212,7 @@ void tellWindows(const Windows& w, std::string_view name, Findings& findings) {
          fmt::format("{}: {} pixels of its data window lie outside of the picture (its "
                      "display window) and were left out",
                      name, cut),
-         cut});
+         cut, true});
 }
 
 Status checkSampling(const Imf::Header& header, const ExrColour& colour, std::string_view name) {
@@ -238,7 +238,7 @@ Result<Image> readPixels(Imf::MultiPartInputFile& file, MemoryInput& input, ExrC
          fmt::format("{}: luminance with chroma is read as colour from an unnamed layer of "
                      "the first part alone; this one is grey: save it as RGB",
                      name),
-         1});
+         1, true});
   if (Status sampled = checkSampling(file.header(colour.part), colour, name); !sampled)
     return sampled.error();
   Imf::InputPart part(file, colour.part);

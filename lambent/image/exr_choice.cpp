@@ -211,8 +211,10 @@ void tellChoice(const Candidate& taken, std::vector<Layer> layers,
     text += fmt::format("; left: {}. For another write its name behind the file's, FILE.exr:LAYER",
                         describe(layers, file.parts()));
   if (deep > 0) text += fmt::format("; {} part(s) with deep pixels cannot be read", deep);
-  findings.push_back({dubious || taken.pass == Pass::Unknown ? Severity::Warning : Severity::Note,
-                      "exr-layers", text, layers.size() + deep});
+  // What is left beside a picture that is one by its name is no loss of light.
+  const bool unsure = dubious || taken.pass == Pass::Unknown;
+  findings.push_back({unsure ? Severity::Warning : Severity::Note, "exr-layers", text,
+                      layers.size() + deep, unsure});
 }
 
 /// Whether a person who writes `wanted` means this layer: its name, the name of its part, or the end

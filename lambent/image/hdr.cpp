@@ -140,7 +140,8 @@ void readUnused(std::string_view line, std::string_view name, Header& header) {
   if (differs("PIXASPECT="))
     header.findings.push_back(
         {Severity::Note, "pixel-aspect",
-         fmt::format("{}: says {}; the picture is not stretched", name, line.substr(0, 40)), 1});
+         fmt::format("{}: says {}; the picture is not stretched", name, line.substr(0, 40)), 1,
+         true});
 }
 
 bool parseResolution(std::string_view line, Header& header) {

@@ -51,7 +51,7 @@ void tellProfile(const formats::CodedColour& colour, std::string_view name, Find
        fmt::format("{}: its colour profile ({}) is not used; its colours are taken as "
                    "sRGB: convert it to sRGB, or to a linear .exr",
                    name, *colour.profile),
-       1});
+       1, true});
 }
 
 /// The codes of PNG, JPEG and WebP become linear: sRGB-encoded, or as a PNG says.
