@@ -16,9 +16,11 @@
 #include "lambent/asset/summary.h"
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/io.h"
+#include "lambent/image/maps.h"
 #include "lambent/light/environment.h"
 #include "lambent/light/light_file.h"
 #include "lambent/scene_io/load.h"
+#include "lambent/sources/source.h"
 
 namespace lambent::tool {
 
@@ -28,7 +30,8 @@ constexpr std::string_view kInfoExamples = R"(Examples:
   lambent info model.glb          meshes, materials, cameras, and what is odd in them
   lambent info baked.glb          also: bands, directions, bounces, encoding
   lambent info weave.rtt          a patch: positions, views, bands, size
-  lambent info sky.exr            size, range, and what it is as a light
+  lambent info sky.exr            size, range, layers, and what it is as a light
+  lambent info cube:probe.exr     what any SOURCE of light is, as 'lambent light' reads it
   lambent info light.json --json  for a script
 )";
 
@@ -67,21 +70,101 @@ Result<Whole> describeModel(const std::filesystem::path& path, const ReadingArgu
   return Whole{"scene", describe(loaded->scene)};
 }
 
-Result<Whole> describeImage(const std::filesystem::path& path, const ReadingArguments& reading) {
-  auto image = image::read(path, reading.forImage());
-  if (!image) return image.error();
-  Description d = describe(*image);
-  if (image->width == 2 * image->height) {  // the shape of a latitude-longitude map
-    const Description light = describe(light::Environment::latLong(std::move(*image)).project(5));
-    d.text += "as a light: " + light.text;
-    d.json["light"] = light.json;
+/// Of a SOURCE, or of a picture as one.
+Result<Description> describeLight(std::string_view source, const ReadingArguments& reading,
+                                  Console& console, bool tellFindings) {
+  sources::SourceOptions options = reading.forSource(console.progress());
+  options.notFinite = sources::SourceOptions::NotFinite::Repair;
+  const auto light = sources::parseSource(source, options);
+  if (!light) return light.error();
+  if (tellFindings)
+    if (Status whole = console.accept(light->findings); !whole) return whole.error();
+  return describe(light->value.project(5));
+}
+
+/// The word that makes a light of a picture, and what it is taken for. By what the file says, else
+/// by its shape; nothing for shapes that no map has.
+struct TakenFor {
+  std::string_view word, name;
+};
+std::optional<TakenFor> takenFor(const image::PictureFile& picture) {
+  const auto kind =
+      picture.map ? picture.map : image::guessKind(picture.image.width, picture.image.height);
+  if (!kind) return std::nullopt;
+  switch (*kind) {
+    case image::MapKind::LatLong:
+      return TakenFor{"latlong", "latitude-longitude map"};
+    case image::MapKind::Cube:
+      return TakenFor{"cube", "cube map"};
+    default:
+      return TakenFor{"angular", "light probe (a mirrored ball is ball:FILE)"};
   }
+}
+
+/// A picture for a screen is a light only where it lies in latitude and longitude: most are textures.
+Result<Description> describeAsLight(image::PictureFile picture, const TakenFor& taken,
+                                    const std::string& name, const ReadingArguments& reading,
+                                    Console& console) {
+  const bool latLong = taken.word == "latlong";
+  const std::string why = picture.map ? "which it says it is," : "by its shape";
+  Description d;
+  d.json["taken_for"] = taken.word;
+  if (picture.codes && !latLong) {
+    d.text =
+        fmt::format("as a light {} a {}: {}:FILE reads it as one\n", why, taken.name, taken.word);
+    return d;
+  }
+  Result<Description> light = Description{};
+  if (latLong && !picture.codes && picture.image.width == 2 * picture.image.height) {
+    light = describe(light::Environment::latLong(std::move(picture.image)).project(5));
+  } else {
+    const bool untold = picture.codes;  // that it is made for a screen is told of lights alone
+    picture.image = {};
+    light = describeLight(fmt::format("{}:{}", taken.word, name), reading, console, untold);
+  }
+  if (!light) return light.error();
+  d.text = fmt::format("as a light, {} a {}: {}", why, taken.name, light->text);
+  d.json["light"] = light->json;
+  return d;
+}
+
+Result<Whole> describeImage(const std::string& name, const ReadingArguments& reading,
+                            Console& console) {
+  const sources::PictureName file = sources::pictureNameOf(name);
+  image::ReadOptions options = reading.forImage();
+  options.layer = file.layer;
+  auto picture = image::readPicture(file.path, options);
+  if (!picture) return picture.error();
+  Description d = describe(picture->image);
+  const auto taken = takenFor(*picture);
+  if (!picture->codes || !taken)
+    if (Status whole = console.accept(picture->findings); !whole) return whole.error();
+  if (!taken) {
+    d.text += "no light by itself: its shape is that of no map; latlong:FILE takes it for one\n";
+    return Whole{"image", d};
+  }
+  const auto light = describeAsLight(std::move(*picture), *taken, name, reading, console);
+  if (!light) return light.error();
+  d.text += light->text;
+  d.json.update(light->json);
   return Whole{"image", d};
+}
+
+/// Whether a name is that of no file but a SOURCE: a word of light, or a sum.
+bool isSource(const std::string& name) {
+  std::error_code ignored;
+  if (std::filesystem::exists(name, ignored)) return false;
+  return sources::kindOf(name) || sources::sourceTerms(name).size() > 1;
 }
 
 Result<Whole> describeFile(const std::filesystem::path& path, const ReadingArguments& reading,
                            Console& console) {
-  const std::string extension = extensionOf(path);
+  if (isSource(path.string())) {
+    const auto light = describeLight(path.string(), reading, console, true);
+    if (!light) return light.error();
+    return Whole{"light", *light};
+  }
+  const std::string extension = extensionOf(sources::pictureNameOf(path.string()).path);
   if (extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".ply")
     return describeModel(path, reading, console);
   if (extension == ".rtt") {
@@ -90,7 +173,7 @@ Result<Whole> describeFile(const std::filesystem::path& path, const ReadingArgum
     return Whole{"radiance transfer texture", describe(asset::summarize(*rtt))};
   }
   for (const std::string_view picture : {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"})
-    if (extension == picture) return describeImage(path, reading);
+    if (extension == picture) return describeImage(path.string(), reading, console);
   if (extension == ".json") {
     const auto light = light::readLight(path);
     if (!light) return light.error();
@@ -113,12 +196,17 @@ Status runInfo(const std::filesystem::path& path, const ReadingArguments& readin
                Console& console) {
   const auto whole = describeFile(path, reading, console);
   if (!whole) return whole.error();
-  std::error_code ignored;
-  const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
-  Json json = {{"file", path.string()}, {"kind", whole->kind}, {"bytes", bytes}};
+  Json json = {{"file", path.string()}, {"kind", whole->kind}};
+  std::string head = fmt::format("{}: {}", path.string(), whole->kind);
+  std::error_code none;
+  const std::uintmax_t bytes =
+      std::filesystem::file_size(sources::pictureNameOf(path.string()).path, none);
+  if (!none) {  // a SOURCE may be of no file
+    json["bytes"] = bytes;
+    head += fmt::format(", {}", formatBytes(double(bytes)));
+  }
   json.update(whole->description.json);
-  return console.finish(json, fmt::format("{}: {}, {}\n{}", path.string(), whole->kind,
-                                          formatBytes(double(bytes)), whole->description.text));
+  return console.finish(json, head + "\n" + whole->description.text);
 }
 
 }  // namespace
@@ -133,7 +221,8 @@ Verb addInfo(CLI::App& root, ConsoleOptions& common) {
       root.add_subcommand("info", "Say what is in a scene, an asset, an image or a light");
   app->group("Verbs");
   app->footer(std::string(kInfoExamples));
-  app->add_option("FILE", arguments->path, "The file to look into")->required();
+  app->add_option("FILE", arguments->path, "The file to look into, or a SOURCE of light")
+      ->required();
   arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) {

@@ -26,7 +26,7 @@ struct ReadingArguments {
 
   // The same for every room that reads.
   asset::ReadOptions forAsset() const { return {allowOutside, memoryLimit}; }
-  image::ReadOptions forImage() const { return {memoryLimit}; }
+  image::ReadOptions forImage() const { return {.memoryLimit = memoryLimit}; }
   scene_io::LoadOptions forScene() const { return {allowOutside, memoryLimit}; }
   sources::SourceOptions forSource(Progress progress) const {
     return {.memoryLimit = memoryLimit, .progress = std::move(progress)};

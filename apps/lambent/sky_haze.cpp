@@ -54,8 +54,10 @@ void HazeArguments::addFilesTo(NamedFiles& files) const {
 
 Result<image::Image> hazyPicture(const HazeArguments& haze, const MapArguments& map, bool mapGiven,
                                  const sky::ResolvedSky& resolved, Console& console) {
-  const auto color = image::read(haze.pictures[0]);
-  if (!color) return color.error();
+  auto read = image::readPicture(haze.pictures[0]);
+  if (!read) return read.error();
+  if (Status whole = console.accept(read->findings); !whole) return whole.error();
+  const image::Image* const color = &read->image;
   const auto depth = image::read(haze.pictures[1]);
   if (!depth) return depth.error();
 

@@ -37,6 +37,15 @@ Status addPage(const fs::path& page, ServedFiles& files) {
   return Status::ok();
 }
 
+/// What the page's readers would take for another light than the library does: other kinds of maps,
+/// other primaries, layers.
+bool needsConversion(const fs::path& path, const ReadingArguments& reading) {
+  const std::string extension = extensionOf(path);
+  if (extension == ".json") return false;
+  const auto picture = image::readPicture(path, reading.forImage());
+  return picture && (picture->converted || picture->image.width != 2 * picture->image.height);
+}
+
 /// A map of another kind than latitude and longitude, as an .exr in that.
 Result<std::string> resampled(const std::string& term, int height,
                               const ReadingArguments& reading) {
@@ -71,8 +80,9 @@ Result<Json> addEnvironment(const std::string& source, std::size_t number,
     const sources::SourceKind* kind = sources::kindOf(term);
     if (kind && kind->takes != sources::SourceKind::Takes::File) continue;
     const std::string stem = fmt::format("files/environment-{}-{}", number, k);
-    std::string name = stem + extensionOf(term);
-    if (kind) {
+    const sources::PictureName picture = sources::pictureNameOf(term);
+    std::string name = stem + extensionOf(picture.path);
+    if (kind || !picture.layer.empty() || needsConversion(picture.path, reading)) {
       name = stem + ".exr";
       const auto bytes = resampled(term, kResampledHeight, reading);
       if (!bytes) return bytes.error();

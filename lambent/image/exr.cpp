@@ -1,10 +1,9 @@
 // OpenEXR pictures that are read. The library does the decompression; what is chosen here:
-//   - the first part of a multi-part file;
-//   - the channels R, G, B (A) if there, else luminance Y (with RY and BY: its chroma), else the
-//     first layer that has R, G, B ("beauty.R", "ViewLayer.Combined.R"), else a single channel as
-//     grey;
+//   - the part and the channels that are the picture (exr_choice.h);
+//   - colours become those of Rec. 709 (exr_stated.h);
 //   - the display window as the picture: what the data window lacks is black, what it has beyond is
-//     cut off.
+//     cut off. Of a map of all directions (`envmap`) the data window is the map, as OpenEXR has it;
+//   - of several resolutions the highest.
 #include <ImathBox.h>
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -21,13 +20,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <new>
 #include <optional>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
+#include "lambent/image/exr_choice.h"
+#include "lambent/image/exr_stated.h"
 #include "lambent/image/exr_streams.h"
 #include "lambent/image/formats.h"
 
@@ -43,54 +45,6 @@ using Imath::Box2i;
 size_t maxPixelsPerByte(Imf::Compression compression) {
   const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
   return dwa ? 65536 : 600;
-}
-
-struct Channels {
-  std::array<std::string, 3> colour;  ///< the same name three times: grey
-  std::string alpha;                  ///< empty: opaque
-  bool chroma = false;                ///< Y with RY and BY
-};
-
-std::string lowered(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-/// R, G, B and A of one layer, by the short or long names in use, in either case.
-std::optional<Channels> colourOf(const std::vector<std::string>& names, const std::string& prefix) {
-  const auto find = [&](const char* brief, const char* full) -> std::string {
-    for (const std::string& name : names) {
-      if (!name.starts_with(prefix)) continue;
-      const std::string rest = lowered(name.substr(prefix.size()));
-      if (rest == brief || rest == full) return name;
-    }
-    return {};
-  };
-  Channels found;
-  found.colour = {find("r", "red"), find("g", "green"), find("b", "blue")};
-  found.alpha = find("a", "alpha");
-  for (const std::string& name : found.colour) {
-    if (name.empty()) return std::nullopt;
-  }
-  return found;
-}
-
-std::optional<Channels> chooseChannels(const Imf::ChannelList& list, std::string_view layer) {
-  std::vector<std::string> names;
-  for (auto i = list.begin(); i != list.end(); ++i) names.emplace_back(i.name());
-  if (!layer.empty()) return colourOf(names, std::string(layer) + ".");
-  if (std::optional<Channels> plain = colourOf(names, "")) return plain;
-  const auto has = [&](const char* name) { return list.findChannel(name) != nullptr; };
-  if (has("Y")) {
-    return Channels{{"Y", "Y", "Y"}, std::string(has("A") ? "A" : ""), has("RY") && has("BY")};
-  }
-  for (const std::string& name : names) {
-    const size_t dot = name.rfind('.');
-    if (dot == std::string::npos) continue;
-    if (std::optional<Channels> found = colourOf(names, name.substr(0, dot + 1))) return found;
-  }
-  if (names.size() == 1) return Channels{{names[0], names[0], names[0]}, "", false};
-  return std::nullopt;
 }
 
 /// The part of the data window that the picture shows, in both coordinates.
@@ -120,6 +74,7 @@ std::uint64_t bytesForBlocks(const Imf::Header& header) {
 Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::string_view name,
                           file::Budget& budget) {
   Windows w{header.dataWindow(), header.displayWindow(), {}};
+  if (statedMap(header)) w.display = w.data;
   for (const Box2i& box : {w.data, w.display}) {
     if (Status sane = checkSize(static_cast<long long>(box.max.x) - box.min.x + 1,
                                 static_cast<long long>(box.max.y) - box.min.y + 1, fileBytes, name,
@@ -150,7 +105,7 @@ Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::stri
 /// Reads whole lines of the data window into planes, a strip at a time.
 class StripReader {
  public:
-  StripReader(Imf::InputPart& part, const Channels& channels, const Windows& windows, int lines)
+  StripReader(Imf::InputPart& part, const ExrColour& channels, const Windows& windows, int lines)
       : part_(part),
         channels_(channels),
         left_(windows.data.min.x),
@@ -167,7 +122,7 @@ class StripReader {
       char* const origin =
           reinterpret_cast<char*>(planes_[p].data()) -
           (std::ptrdiff_t(top) * width_ + left_) * static_cast<std::ptrdiff_t>(sizeof(float));
-      frame.insert(p < 3 ? channels_.colour[p] : channels_.alpha,
+      frame.insert(p < 3 ? channels_.channels[p] : channels_.alpha,
                    Imf::Slice(Imf::FLOAT, origin, sizeof(float), sizeof(float) * width_, 1, 1,
                               p < 3 ? 0.0 : 1.0));
     }
@@ -184,16 +139,16 @@ class StripReader {
 
  private:
   /// Grey asks for one channel: a name may stand only once in a frame buffer.
-  bool grey() const { return channels_.colour[0] == channels_.colour[1]; }
+  bool grey() const { return channels_.channels[0] == channels_.channels[1]; }
   size_t at(int x, int y) const { return size_t(y - top_) * width_ + (x - left_); }
 
   Imf::InputPart& part_;
-  const Channels& channels_;
+  const ExrColour& channels_;
   int left_, width_, top_ = 0;
   std::array<std::vector<float>, 4> planes_;
 };
 
-Image readColour(Imf::InputPart& part, const Channels& channels, const Windows& w) {
+Image readColour(Imf::InputPart& part, const ExrColour& channels, const Windows& w) {
   // The first line alone before memory is taken for all: most files that lie about their size fail
   // here.
   StripReader(part, channels, w, 1).read(w.common.min.y, w.common.min.y);
@@ -216,7 +171,7 @@ Image readColour(Imf::InputPart& part, const Channels& channels, const Windows& 
 }
 
 // Luminance and subsampled chroma: the library upsamples and converts, in half precision.
-Image readChroma(MemoryInput& input, const Channels& channels, const Windows& w) {
+Image readChroma(MemoryInput& input, const ExrColour& channels, const Windows& w) {
   input.seekg(0);
   Imf::RgbaInputFile file(input);
   std::vector<Imf::Rgba> line(w.data.max.x - w.data.min.x + 1);
@@ -236,42 +191,112 @@ Image readChroma(MemoryInput& input, const Channels& channels, const Windows& w)
   return image;
 }
 
-Result<Image> readChecked(Bytes bytes, std::string_view name, file::Budget& budget,
-                          std::string_view layer) {
+std::uint64_t pixelsIn(const Box2i& box) {
+  return static_cast<std::uint64_t>(box.max.x - box.min.x + 1) *
+         static_cast<std::uint64_t>(box.max.y - box.min.y + 1);
+}
+
+void tellWindows(const Windows& w, std::string_view name, Findings& findings) {
+  const std::uint64_t common = pixelsIn(w.common);
+  const std::uint64_t black = pixelsIn(w.display) - common, cut = pixelsIn(w.data) - common;
+  if (black > 0)
+    findings.push_back(
+        {Severity::Note, "exr-windows-black",
+         fmt::format("{}: its data window leaves {} pixels of the picture free: they are "
+                     "black",
+                     name, black),
+         black});
+  if (cut > 0)
+    findings.push_back(
+        {Severity::Note, "exr-windows-cut",
+         fmt::format("{}: {} pixels of its data window lie outside of the picture (its "
+                     "display window) and were left out",
+                     name, cut),
+         cut, true});
+}
+
+Status checkSampling(const Imf::Header& header, const ExrColour& colour, std::string_view name) {
+  for (const std::string& channel :
+       {colour.channels[0], colour.channels[1], colour.channels[2], colour.alpha}) {
+    const Imf::Channel* const found =
+        channel.empty() ? nullptr : header.channels().findChannel(channel);
+    if (found && (found->xSampling != 1 || found->ySampling != 1))
+      return report::badInput(
+          fmt::format("{}: channel {} is subsampled; save it at full resolution", name, channel));
+  }
+  return Status::ok();
+}
+
+/// The library makes colour of luminance and chroma in the first part alone.
+Result<Image> readPixels(Imf::MultiPartInputFile& file, MemoryInput& input, ExrColour colour,
+                         const Windows& windows, std::string_view name, Findings& findings) {
+  const bool plain = colour.part == 0 && colour.layer.empty();
+  if (colour.model == ExrColour::Model::Chroma && plain) return readChroma(input, colour, windows);
+  if (colour.model == ExrColour::Model::Chroma)
+    findings.push_back(
+        {Severity::Warning, "exr-chroma",
+         fmt::format("{}: luminance with chroma is read as colour from an unnamed layer of "
+                     "the first part alone; this one is grey: save it as RGB",
+                     name),
+         1, true});
+  if (Status sampled = checkSampling(file.header(colour.part), colour, name); !sampled)
+    return sampled.error();
+  Imf::InputPart part(file, colour.part);
+  return readColour(part, colour, windows);
+}
+
+/// Brings colours and a cube's faces into the conventions of this room.
+Status convert(const Imf::Header& header, ExrColour::Model model, std::string_view name,
+               PictureFile& picture) {
+  using Model = ExrColour::Model;
+  std::optional<radiometry::Primaries> primaries;
+  if (model == Model::Xyz) primaries = radiometry::xyzPrimaries();
+  if (model == Model::Rgb || model == Model::Chroma)
+    primaries = statedPrimaries(header, name, picture.findings);
+  if (primaries && toRec709(*primaries, picture.image)) picture.converted = true;
+  tellUnused(header, name, picture.findings);
+  picture.map = statedMap(header);
+  if (picture.map != MapKind::Cube) return Status::ok();
+  std::optional<Image> cube = cubeOfEnvmap(picture.image);
+  if (!cube)
+    return report::badInput(
+        fmt::format("{}: says that it is a cube map, but has {} x {} pixels; six "
+                    "faces in a column are 1:6",
+                    name, picture.image.width, picture.image.height));
+  picture.image = std::move(*cube);
+  return Status::ok();
+}
+
+/// Before colours are.
+bool isConverted(const ExrColour& colour, const Windows& w, const Imf::Header& header) {
+  using Model = ExrColour::Model;
+  const bool plain = colour.model == Model::Rgb || colour.model == Model::Luminance;
+  return colour.part != 0 || !colour.layer.empty() || !plain || w.data != w.display ||
+         statedMap(header) == MapKind::Cube;
+}
+
+Result<PictureFile> readChecked(Bytes bytes, std::string_view name, file::Budget& budget,
+                                std::string_view layer) {
   if (Status sound = checkExrHeader(bytes, name); !sound) return sound.error();
   const std::string streamName(name);
   MemoryInput input(bytes, streamName.c_str());
   // No reconstruction of a missing offset table: it would scan the file for what a writer that was
   // killed has left, and half a picture is not wanted.
   Imf::MultiPartInputFile file(input, 0, false);
-  const Imf::Header& header = file.header(0);
-  if (header.hasType() && Imf::isDeepData(header.type())) {
-    return report::badInput(streamName + ": deep pixels cannot be read; flatten the picture");
-  }
+  Result<WithFindings<ExrColour>> choice = chooseColour(file, layer, name);
+  if (!choice) return choice.error();
+  const Imf::Header& header = file.header(choice->value.part);
   const Result<Windows> windows = windowsOf(header, bytes.size(), name, budget);
   if (!windows) return windows.error();
-  const std::optional<Channels> channels = chooseChannels(header.channels(), layer);
-  if (!channels && !layer.empty()) {
-    return report::badInput(streamName + ": has no layer " + std::string(layer) +
-                            " with channels R, G, B in its first part");
-  }
-  if (!channels) {
-    return report::badInput(streamName +
-                            ": has neither channels R, G, B nor Y in its first part; save it with "
-                            "colour channels");
-  }
-  if (channels->chroma) return readChroma(input, *channels, *windows);
-  for (const std::string& channel :
-       {channels->colour[0], channels->colour[1], channels->colour[2], channels->alpha}) {
-    const Imf::Channel* const found =
-        channel.empty() ? nullptr : header.channels().findChannel(channel);
-    if (found && (found->xSampling != 1 || found->ySampling != 1)) {
-      return report::badInput(streamName + ": channel " + channel +
-                              " is subsampled; save it at full resolution");
-    }
-  }
-  Imf::InputPart part(file, 0);
-  return readColour(part, *channels, *windows);
+  PictureFile picture;
+  picture.findings = std::move(choice->findings);
+  picture.converted = isConverted(choice->value, *windows, header);
+  Result<Image> pixels = readPixels(file, input, choice->value, *windows, name, picture.findings);
+  if (!pixels) return pixels.error();
+  picture.image = std::move(*pixels);
+  tellWindows(*windows, name, picture.findings);
+  if (Status done = convert(header, choice->value.model, name, picture); !done) return done.error();
+  return picture;
 }
 
 }  // namespace
@@ -281,8 +306,8 @@ bool isExr(Bytes bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), kMagic.data(), 4) == 0;
 }
 
-Result<Image> readExr(Bytes bytes, std::string_view name, file::Budget& budget,
-                      std::string_view layer) {
+Result<PictureFile> readExr(Bytes bytes, std::string_view name, file::Budget& budget,
+                            std::string_view layer) {
   try {
     return readChecked(bytes, name, budget, layer);
   } catch (const std::bad_alloc&) {

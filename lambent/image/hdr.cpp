@@ -3,6 +3,9 @@
 //
 //   value = mantissa · 2^(exponent − 136), divided by every EXPOSURE and COLORCORR of the header
 //
+// PRIMARIES and XYZE become Rec. 709. Where the header says neither, colours are taken as Rec. 709:
+// Radiance's own default differs from that by 0.01 in the green and an equal-energy white.
+//
 // Deviation: Radiance itself adds half a mantissa step when it decodes, which makes up for writers
 // that truncate. The pictures in use come from everywhere and other readers (three.js among them)
 // add nothing; neither do we, so that 1.0 stays 1.0, and our writer rounds instead of truncating.
@@ -12,6 +15,8 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "lambent/image/formats.h"
 
@@ -61,11 +66,17 @@ class Cursor {
 
 struct Header {
   bool xyz = false;
+  std::optional<radiometry::Primaries> primaries;
+  Findings findings;
   std::array<double, 3> divisor{1, 1, 1};
   // Slow axis first, as the file has it: "-Y 256 +X 512".
   char slow = 'Y', fast = 'X';
   bool slowRises = false, fastRises = true;  ///< the sign; +Y is up, +X right
   int slowSize = 0, fastSize = 0;
+  /// From the top left, line by line, exposed once.
+  bool isPlain() const {
+    return slow == 'Y' && !slowRises && fastRises && divisor == std::array<double, 3>{1, 1, 1};
+  }
   int width() const { return slow == 'X' ? slowSize : fastSize; }
   int height() const { return slow == 'X' ? fastSize : slowSize; }
 };
@@ -95,6 +106,42 @@ void divideBy(Header& header, const std::vector<double>& factors) {
   } else if (factors.size() == 3) {
     for (int c = 0; c < 3; ++c) header.divisor[c] *= factors[c];
   }
+}
+
+/// "PRIMARIES= .640 .330 .290 .600 .150 .060 .333 .333": red, green, blue, white.
+void readPrimaries(const std::vector<double>& xy, std::string_view name, Header& header) {
+  if (xy.size() == 8) {
+    header.primaries = {{xy[0], xy[1]}, {xy[2], xy[3]}, {xy[4], xy[5]}, {xy[6], xy[7]}};
+    if (rec709From(*header.primaries)) return;
+    header.primaries.reset();
+  }
+  header.findings.push_back(
+      {Severity::Warning, "colour-primaries",
+       fmt::format("{}: its PRIMARIES are not eight numbers that span a triangle; "
+                   "its colours are taken as mixtures of those of Rec. 709",
+                   name),
+       1, true});
+}
+
+/// What is said but not used.
+void readUnused(std::string_view line, std::string_view name, Header& header) {
+  const auto differs = [&](std::string_view key) {
+    if (!line.starts_with(key)) return false;
+    const std::vector<double> value = numbersIn(line.substr(key.size()));
+    return value.size() != 1 || std::abs(value[0] - 1.0) > 1e-3;
+  };
+  if (differs("GAMMA="))
+    header.findings.push_back(
+        {Severity::Warning, "colour-not-linear",
+         fmt::format("{}: says {}; numbers of this format are linear, and it is not "
+                     "used: if they are encoded, save the picture linear",
+                     name, line.substr(0, 40)),
+         1, true});
+  if (differs("PIXASPECT="))
+    header.findings.push_back(
+        {Severity::Note, "pixel-aspect",
+         fmt::format("{}: says {}; the picture is not stretched", name, line.substr(0, 40)), 1,
+         true});
 }
 
 bool parseResolution(std::string_view line, Header& header) {
@@ -134,6 +181,10 @@ Result<Header> readHeader(Cursor& file, std::string_view name) {
       if (one.size() == 1) divideBy(header, one);
     } else if (line->starts_with("COLORCORR=")) {
       divideBy(header, numbersIn(line->substr(10)));
+    } else if (line->starts_with("PRIMARIES=")) {
+      readPrimaries(numbersIn(line->substr(10)), name, header);
+    } else {
+      readUnused(*line, name, header);
     }
   }
   const std::optional<std::string_view> resolution = file.nextLine();
@@ -203,12 +254,6 @@ Rgb decodePixel(const Rgbe& pixel, const Header& header) {
   const double scale = std::ldexp(1.0, pixel[3] - 136);
   std::array<double, 3> v;
   for (int c = 0; c < 3; ++c) v[c] = pixel[c] * scale / header.divisor[c];
-  if (header.xyz) {
-    // CIE XYZ (equal-energy scaled, as Radiance writes) → Rec. 709, IEC 61966-2-1.
-    v = {3.2404542 * v[0] - 1.5371385 * v[1] - 0.4985314 * v[2],
-         -0.9692660 * v[0] + 1.8760108 * v[1] + 0.0415560 * v[2],
-         0.0556434 * v[0] - 0.2040259 * v[1] + 1.0572252 * v[2]};
-  }
   return Rgb(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
 }
 
@@ -256,9 +301,9 @@ bool isHdr(Bytes bytes) {
   return bytes.size() >= 2 && bytes[0] == std::byte('#') && bytes[1] == std::byte('?');
 }
 
-Result<Image> readHdr(Bytes bytes, std::string_view name, file::Budget& budget) {
+Result<PictureFile> readHdr(Bytes bytes, std::string_view name, file::Budget& budget) {
   Cursor file(bytes, name);
-  const Result<Header> header = readHeader(file, name);
+  Result<Header> header = readHeader(file, name);
   if (!header) return header.error();
   if (Status sane =
           checkSize(header->width(), header->height(), bytes.size(), name, kMaxPixelsPerHdrByte);
@@ -282,7 +327,13 @@ Result<Image> readHdr(Bytes bytes, std::string_view name, file::Budget& budget) 
           decodePixel(line[f], *header);
     }
   }
-  return image;
+  PictureFile picture;
+  if (header->xyz) header->primaries = radiometry::xyzPrimaries();
+  picture.converted = !header->isPlain();
+  if (header->primaries && toRec709(*header->primaries, image)) picture.converted = true;
+  picture.image = std::move(image);
+  picture.findings = std::move(header->findings);
+  return picture;
 }
 
 std::vector<std::byte> writeHdr(const Image& image) {

@@ -1,7 +1,10 @@
 #include "lambent/image/io.h"
 
+#include <cmath>
 #include <limits>
 #include <new>
+
+#include <fmt/format.h>
 
 #include "lambent/file/atomic_file.h"
 #include "lambent/file/extension.h"
@@ -26,7 +29,9 @@ Image toImage(const formats::Codes& codes, const std::vector<Sample>& rgba) {
   constexpr int kLargest = std::numeric_limits<Sample>::max();
   std::vector<float> linear(size_t(kLargest) + 1);
   for (int i = 0; i <= kLargest; ++i) {
-    linear[i] = radiometry::srgbDecode(static_cast<float>(i) / kLargest);
+    const float code = static_cast<float>(i) / kLargest;
+    linear[i] = codes.colour.gamma ? std::pow(code, static_cast<float>(1.0 / *codes.colour.gamma))
+                                   : radiometry::srgbDecode(code);
   }
   Image image(codes.width, codes.height);
   if (codes.hasAlpha) image.alpha.resize(image.pixels.size());
@@ -38,32 +43,53 @@ Image toImage(const formats::Codes& codes, const std::vector<Sample>& rgba) {
   return image;
 }
 
-/// The codes of PNG, JPEG and WebP are sRGB-encoded, whatever profile is beside them.
-Result<Image> linearised(const Result<formats::Codes>& codes, std::string_view name,
-                         file::Budget& budget) {
+/// A profile that is not sRGB's own is not used; nor is one whose name says nothing.
+void tellProfile(const formats::CodedColour& colour, std::string_view name, Findings& findings) {
+  if (!colour.profile || colour.profile->find("sRGB") != std::string::npos) return;
+  findings.push_back(
+      {Severity::Note, "colour-profile",
+       fmt::format("{}: its colour profile ({}) is not used; its colours are taken as "
+                   "sRGB: convert it to sRGB, or to a linear .exr",
+                   name, *colour.profile),
+       1, true});
+}
+
+/// The codes of PNG, JPEG and WebP become linear: sRGB-encoded, or as a PNG says.
+Result<PictureFile> linearised(Result<formats::Codes> codes, std::string_view name,
+                               const ReadOptions& options, file::Budget& budget) {
   if (!codes) return codes.error();
   if (Status fits =
           formats::holdPixels(codes->width, codes->height, codes->hasAlpha ? 16 : 12, name, budget);
       !fits) {
     return fits.error();
   }
-  return codes->rgba16.empty() ? toImage(*codes, codes->rgba8) : toImage(*codes, codes->rgba16);
+  if (options.plainCodes) codes->colour = {};
+  PictureFile picture;
+  picture.codes = true;
+  picture.image =
+      codes->rgba16.empty() ? toImage(*codes, codes->rgba8) : toImage(*codes, codes->rgba16);
+  if (codes->colour.primaries)
+    picture.converted = formats::toRec709(*codes->colour.primaries, picture.image);
+  tellProfile(codes->colour, name, picture.findings);
+  return picture;
 }
 
-Result<Image> decodeAs(Format format, std::span<const std::byte> bytes, std::string_view name,
-                       file::Budget& budget) {
+Result<PictureFile> decodeAs(Format format, std::span<const std::byte> bytes, std::string_view name,
+                             const ReadOptions& options, file::Budget& budget) {
+  if (!options.layer.empty() && format != Format::Exr)
+    return report::badInput(std::string(name) + ": only OpenEXR pictures have further layers");
   switch (format) {
     case Format::Exr:
-      return formats::readExr(bytes, name, budget);
+      return formats::readExr(bytes, name, budget, options.layer);
     case Format::Hdr:
       return formats::readHdr(bytes, name, budget);
     case Format::Png:
       return linearised(formats::readPng(bytes, name, formats::Depth::AsStored, budget), name,
-                        budget);
+                        options, budget);
     case Format::Jpeg:
-      return linearised(formats::readJpeg(bytes, name, budget), name, budget);
+      return linearised(formats::readJpeg(bytes, name, budget), name, options, budget);
     case Format::WebP:
-      return linearised(formats::readWebP(bytes, name, budget), name, budget);
+      return linearised(formats::readWebP(bytes, name, budget), name, options, budget);
     case Format::Unknown:
       break;
   }
@@ -76,6 +102,16 @@ Result<Image> decodeAs(Format format, std::span<const std::byte> bytes, std::str
 }  // namespace
 
 namespace formats {
+
+bool toRec709(const radiometry::Primaries& primaries, Image& image) {
+  if (isNear(primaries, radiometry::rec709Primaries())) return false;
+  const std::optional<Mat3d> exact = rec709From(primaries);
+  if (!exact) return false;
+  const Mat3 matrix = exact->cast<float>();
+  for (Rgb& pixel : image.pixels)
+    if (pixel.isFinite().all()) pixel = (matrix * pixel.matrix()).array();
+  return true;
+}
 
 Error damaged(std::string_view name, const std::string& what, size_t at) {
   return report::badInput(std::string(name) + ": " + what + " at byte " + std::to_string(at) +
@@ -112,42 +148,44 @@ Status checkSize(long long width, long long height, size_t fileBytes, std::strin
 
 }  // namespace formats
 
-Result<Image> decode(std::span<const std::byte> bytes, std::string_view name,
-                     const ReadOptions& options) {
+Result<PictureFile> decodePicture(std::span<const std::byte> bytes, std::string_view name,
+                                  const ReadOptions& options) {
   file::Budget budget(options.memoryLimit);
   budget.addFile(bytes.size());
   try {
-    return decodeAs(formatOf(bytes), bytes, name, budget);
+    return decodeAs(formatOf(bytes), bytes, name, options, budget);
   } catch (const std::bad_alloc&) {
     return report::failed(std::string(name) + ": not enough memory to read the picture");
   }
 }
 
-Result<Image> read(const std::filesystem::path& path, const ReadOptions& options) {
+Result<PictureFile> readPicture(const std::filesystem::path& path, const ReadOptions& options) {
   const Result<std::vector<std::byte>> bytes = file::readWhole(path);
   if (!bytes) return bytes.error();
-  return decode(*bytes, path.string(), options);
+  return decodePicture(*bytes, path.string(), options);
+}
+
+Result<Image> decode(std::span<const std::byte> bytes, std::string_view name,
+                     const ReadOptions& options) {
+  Result<PictureFile> picture = decodePicture(bytes, name, options);
+  if (!picture) return picture.error();
+  return std::move(picture->image);
+}
+
+Result<Image> read(const std::filesystem::path& path, const ReadOptions& options) {
+  Result<PictureFile> picture = readPicture(path, options);
+  if (!picture) return picture.error();
+  return std::move(picture->image);
 }
 
 Result<Image> readLayer(const std::filesystem::path& path, std::string_view layer,
                         const ReadOptions& options) {
-  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
-  if (!bytes) return bytes.error();
-  return decodeLayer(*bytes, path.string(), layer, options);
+  return read(path, {options.memoryLimit, std::string(layer)});
 }
 
 Result<Image> decodeLayer(std::span<const std::byte> bytes, std::string_view name,
                           std::string_view layer, const ReadOptions& options) {
-  if (!formats::isExr(bytes)) {
-    return report::badInput(std::string(name) + ": only OpenEXR pictures have further layers");
-  }
-  file::Budget budget(options.memoryLimit);
-  budget.addFile(bytes.size());
-  try {
-    return formats::readExr(bytes, name, budget, layer);
-  } catch (const std::bad_alloc&) {
-    return report::failed(std::string(name) + ": not enough memory to read the picture");
-  }
+  return decode(bytes, name, {options.memoryLimit, std::string(layer)});
 }
 
 Status checkWritableFormat(const std::filesystem::path& path) {

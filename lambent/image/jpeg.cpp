@@ -100,6 +100,15 @@ void fromInk(std::span<std::uint8_t> cmyk, bool inverted) {
   }
 }
 
+/// Whether a text stands anywhere in the file, as it is or with a zero before each letter, as ICC
+/// profiles write names.
+bool holdsText(Bytes bytes, std::string_view text) {
+  std::string wide;
+  for (const char c : text) wide += std::string{'\0', c};
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return all.find(text) != std::string_view::npos || all.find(wide) != std::string_view::npos;
+}
+
 }  // namespace
 
 bool isJpeg(Bytes bytes) {
@@ -144,6 +153,7 @@ Result<Codes> readJpeg(Bytes bytes, std::string_view name, file::Budget& budget)
   if (!readPixels(decoder, codes.rgba8.data())) return undecodable();
   if (jpeg.out_color_space == JCS_CMYK) fromInk(codes.rgba8, jpeg.saw_Adobe_marker);
   budget.release(forScans * pixels);
+  if (holdsText(bytes, "ICC_PROFILE") && !holdsText(bytes, "sRGB")) codes.colour.profile = "ICC";
   return codes;
 }
 

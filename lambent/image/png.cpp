@@ -2,8 +2,8 @@
 // linkage, so that nobody's copy of stb meets ours at link time.
 //
 // Of a file's chunks libspng sees those that make the pixels alone. All chunks are walked before,
-// so that their checksums are right up to the end and a message can say where they are not; text,
-// profiles and what else may be packed in a file is not unpacked.
+// so that their checksums are right up to the end and a message can say where they are not, and what
+// they say of colour is noted; text, profiles and what else may be packed in a file is not unpacked.
 #include <spng.h>
 
 #include <algorithm>
@@ -113,8 +113,31 @@ std::uint32_t checksum(Bytes bytes) {
 struct Pieces {
   std::vector<Bytes> spans;
   bool transparency = false;  ///< a tRNS chunk is among them
+  bool srgb = false;          ///< an sRGB chunk is: it outranks what `colour` says
+  CodedColour colour;
   size_t span = 0, at = 0;
 };
+
+/// What an ancillary chunk says of colour. Chunks of other lengths than the specification's say
+/// nothing.
+void noteColour(const std::string& type, Bytes data, Pieces& pieces) {
+  const auto fraction = [&](size_t i) { return bigEndian(data, 4 * i) / 100000.0; };
+  if (type == "sRGB") pieces.srgb = true;
+  if (type == "gAMA" && data.size() == 4 && bigEndian(data, 0) > 0) {
+    // Files that want sRGB, and say it as well as a power can, are to be within 5% of this.
+    constexpr double kSrgb = 0.45455;
+    if (std::abs(fraction(0) / kSrgb - 1) > 0.05) pieces.colour.gamma = fraction(0);
+  }
+  if (type == "cHRM" && data.size() == 32)
+    pieces.colour.primaries = {{fraction(2), fraction(3)},
+                               {fraction(4), fraction(5)},
+                               {fraction(6), fraction(7)},
+                               {fraction(0), fraction(1)}};
+  if (type == "iCCP") {
+    const auto* const first = reinterpret_cast<const char*>(data.data());
+    pieces.colour.profile = std::string(first, strnlen(first, std::min<size_t>(data.size(), 79)));
+  }
+}
 
 Result<Pieces> checkPng(Bytes bytes, std::string_view name) {
   size_t at = kPngMagic.size();
@@ -141,7 +164,13 @@ Result<Pieces> checkPng(Bytes bytes, std::string_view name) {
       if (type == wanted) pieces.spans.push_back(bytes.subspan(at, 12 + length));
     }
     pieces.transparency = pieces.transparency || type == "tRNS";
-    if (type == "IEND") return pieces;
+    noteColour(type, bytes.subspan(at + 8, length), pieces);
+    if (type == "IEND") {
+      // The specification's order of rank: a profile, sRGB, the others.
+      if (pieces.srgb || pieces.colour.profile)
+        pieces.colour.gamma.reset(), pieces.colour.primaries.reset();
+      return pieces;
+    }
     at += 12 + length;
   }
 }
@@ -199,6 +228,7 @@ Result<Codes> readPng(Bytes bytes, std::string_view name, Depth depth, file::Bud
     return fits.error();
   }
   Codes codes;
+  codes.colour = pieces->colour;
   codes.width = static_cast<int>(header.width);
   codes.height = static_cast<int>(header.height);
   codes.hasAlpha = pieces->transparency || header.color_type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA ||

@@ -239,9 +239,11 @@ Result<WithFindings<transfer::SimulatedRtt>> acquireRtt(const std::filesystem::p
     if (progress && !progress({"pictures", s, samples.size(), "pictures"}))
       return report::cancelled();
     const std::string where = table->string() + ", line " + std::to_string(samples[s].line) + ": ";
-    const Result<image::Image> picture =
-        image::read(samples[s].file, {.memoryLimit = options.memoryLimit});
-    if (!picture) return report::badInput(where + picture.error().message);
+    const Result<image::PictureFile> read =
+        image::readPicture(samples[s].file, {.memoryLimit = options.memoryLimit});
+    if (!read) return report::badInput(where + read.error().message);
+    findings.insert(findings.end(), read->findings.begin(), read->findings.end());
+    const image::Image* const picture = &read->image;
     if (Status fits = charge(*picture, samples[s].file, account); !fits)
       return report::badInput(where + fits.error().message);
     if (s == 0) {

@@ -60,7 +60,8 @@ Result<LoadedPatch> loadMesh(const std::filesystem::path& path, const PatchFileO
 /// Rows from the top in the picture, from y = 0 in the field.
 Result<HeightField> readHeights(const std::filesystem::path& path, bool codeValues,
                                 const PatchFileOptions& options) {
-  const Result<image::Image> picture = image::read(path, {.memoryLimit = options.memoryLimit});
+  const Result<image::Image> picture = image::read(
+      path, {.memoryLimit = options.memoryLimit, .layer = {}, .plainCodes = codeValues});
   if (!picture) return picture.error();
   if (picture->width < 2 || picture->height < 2)
     return report::badInput(path.string() + ": a height field needs 2×2 samples at least");

@@ -52,9 +52,11 @@ Result<Findings> makeLight(image::Image& image, const std::filesystem::path& pat
 /// change of grid costs nothing that can be seen.
 image::Image toLatLong(const image::Image& map, image::MapKind kind) {
   constexpr int kMostRows = 4096;
-  // A cube's faces, whatever their layout, are as wide as the greatest common divisor of its sides
+  // Of a latitude-longitude map that was stretched the finer side counts. A cube's faces, whatever their layout, are as wide as the greatest common divisor of its sides
   // and half as high as a sphere; the other maps' sides span the sphere twice over.
-  const int rows = kind == image::MapKind::Cube ? 4 * std::gcd(map.width, map.height) : map.height;
+  const int rows = kind == image::MapKind::Cube      ? 4 * std::gcd(map.width, map.height)
+                   : kind == image::MapKind::LatLong ? std::max(map.height, map.width / 2)
+                                                     : map.height;
   const int height = std::clamp(rows, 1, kMostRows);
   return image::resample(map, kind, {image::MapKind::LatLong, 2 * height, height});
 }
@@ -65,33 +67,78 @@ std::string remedyForShape(int width, int height) {
   if (kind == image::MapKind::Cube) return "for a cube map write cube:FILE";
   if (kind == image::MapKind::Angular)
     return "for a light probe write angular:FILE, for a mirrored ball ball:FILE";
-  return "resize or crop it to 2:1";
+  return "resize it to 2:1, or write latlong:FILE if it shows all directions all the same";
 }
 
-Result<Light> readMap(const std::filesystem::path& path, image::MapKind kind,
+/// Whether the picture fits the kind of map; BadInput that says which kind it may be.
+Status checkKind(const image::PictureFile& picture, std::optional<image::MapKind> asked,
+                 image::MapKind kind, const std::string& file) {
+  const int width = picture.image.width, height = picture.image.height;
+  const bool stated = asked || picture.map;
+  if (!stated && width != 2 * height)
+    return badInput(
+        fmt::format("{}: {} x {} pixels; a latitude-longitude map is twice as wide as high: {}",
+                    file, width, height, remedyForShape(width, height)));
+  if (const Status status = image::checkShape({kind, width, height}); !status)
+    return badInput(fmt::format("{}: {}", file, status.error().message));
+  return Status::ok();
+}
+
+/// What was made for a screen has lost what is brighter than it.
+void tellCodes(const std::string& file, Findings& findings) {
+  findings.push_back(
+      {Severity::Note, "light-not-hdr",
+       fmt::format("{}: made for a screen: what is brighter than white is cut off, so "
+                   "that the Sun and lamps are too dim and their shadows too soft; take "
+                   "an .exr or .hdr of the place if there is one",
+                   file),
+       1});
+}
+
+/// `asked`: the kind by the word before the file's name; nothing: what the file says, else a
+/// latitude-longitude map.
+Result<Light> readMap(std::string_view name, std::optional<image::MapKind> asked,
                       const SourceOptions& options) {
-  Result<image::Image> image = image::read(path, {.memoryLimit = options.memoryLimit});
-  if (!image) return image.error();
-  if (kind == image::MapKind::LatLong && image->width != 2 * image->height)
-    return badInput(fmt::format(
-        "{}: {} x {} pixels; a latitude-longitude map is twice as wide as high: {}", path.string(),
-        image->width, image->height, remedyForShape(image->width, image->height)));
-  if (const Status status = image::checkShape({kind, image->width, image->height}); !status)
-    return badInput(fmt::format("{}: {}", path.string(), status.error().message));
-  Result<Findings> findings = makeLight(*image, path, options);
+  const PictureName picture = pictureNameOf(name);
+  const std::string file = picture.path.string();
+  Result<image::PictureFile> read = image::readPicture(
+      picture.path, {.memoryLimit = options.memoryLimit, .layer = picture.layer});
+  if (!read) return read.error();
+  const image::MapKind kind = asked ? *asked : read->map.value_or(image::MapKind::LatLong);
+  if (Status fits = checkKind(*read, asked, kind, file); !fits) return fits.error();
+  Result<Findings> findings = makeLight(read->image, picture.path, options);
   if (!findings) return findings.error();
-  if (kind != image::MapKind::LatLong) *image = toLatLong(*image, kind);
-  return Light{light::Environment::latLong(std::move(*image)), std::move(*findings)};
+  Findings all = std::move(read->findings);
+  if (read->codes) tellCodes(file, all);
+  all.insert(all.end(), findings->begin(), findings->end());
+  const bool ready = kind == image::MapKind::LatLong && read->image.width == 2 * read->image.height;
+  if (!ready) read->image = toLatLong(read->image, kind);
+  return Light{light::Environment::latLong(std::move(read->image)), std::move(all)};
 }
 
 Result<Light> mapOf(const Term& term, image::MapKind kind, std::string_view word,
                     const SourceOptions& options) {
   if (!term.rest || term.rest->empty())
     return usage(term.text, "the file is missing", fmt::format("{}:probe.exr", word));
-  return readMap(std::string(*term.rest), kind, options);
+  return readMap(*term.rest, kind, options);
 }
 
 }  // namespace
+
+PictureName pictureNameOf(std::string_view name) {
+  std::error_code ignored;
+  const std::filesystem::path whole{std::string(name)};
+  const std::size_t colon = name.rfind(':');
+  if (colon == std::string_view::npos || colon + 1 == name.size()) return {whole, {}};
+  const std::filesystem::path path{std::string(name.substr(0, colon))};
+  if (file::extensionOf(path) != ".exr" || std::filesystem::exists(whole, ignored))
+    return {whole, {}};
+  return {path, std::string(name.substr(colon + 1))};
+}
+
+Result<Light> latLongMap(const Term& term, const SourceOptions& options) {
+  return mapOf(term, image::MapKind::LatLong, "latlong", options);
+}
 
 Result<Light> cubeMap(const Term& term, const SourceOptions& options) {
   return mapOf(term, image::MapKind::Cube, "cube", options);
@@ -106,7 +153,7 @@ Result<Light> mirrorBall(const Term& term, const SourceOptions& options) {
 }
 
 std::optional<Result<Light>> lightFromFile(std::string_view name, const SourceOptions& options) {
-  const std::filesystem::path path{std::string(name)};
+  const std::filesystem::path path = pictureNameOf(name).path;
   const std::string extension = file::extensionOf(path);
   if (extension == ".json") {
     Result<sh::RgbCoefficients> light = light::readLight(path);
@@ -114,7 +161,7 @@ std::optional<Result<Light>> lightFromFile(std::string_view name, const SourceOp
     return Result<Light>(Light{light::Environment::harmonics(std::move(*light)), {}});
   }
   for (const std::string_view known : {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"})
-    if (extension == known) return readMap(path, image::MapKind::LatLong, options);
+    if (extension == known) return readMap(name, std::nullopt, options);
   return std::nullopt;
 }
 

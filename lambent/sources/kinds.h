@@ -10,6 +10,7 @@ using Light = WithFindings<light::Environment>;
 Result<Light> uniformLight(const Term& term, const SourceOptions& options);
 Result<Light> discLight(const Term& term, const SourceOptions& options);
 Result<Light> directionalLight(const Term& term, const SourceOptions& options);
+Result<Light> latLongMap(const Term& term, const SourceOptions& options);
 Result<Light> cubeMap(const Term& term, const SourceOptions& options);
 Result<Light> angularMap(const Term& term, const SourceOptions& options);
 Result<Light> mirrorBall(const Term& term, const SourceOptions& options);

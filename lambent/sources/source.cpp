@@ -25,6 +25,7 @@ constexpr SourceKind kKinds[] = {
      directionalLight},
     {"sky", "sky:KEY=VALUE[,…]", "a sky with its Sun and ground, by the keys of 'lambent sky'",
      Takes::Keys, skyLight},
+    {"latlong", "latlong:FILE", "", Takes::File, latLongMap},
     {"cube", "cube:FILE", "", Takes::File, cubeMap},
     {"angular", "angular:FILE", "", Takes::File, angularMap},
     {"ball", "ball:FILE", "", Takes::File, mirrorBall},
@@ -36,6 +37,7 @@ struct Form {
 };
 constexpr Form kFiles[] = {
     {"FILE.exr FILE.hdr FILE.png", "an environment image, latitude-longitude"},
+    {"FILE.exr:LAYER", "a layer or part of it that is not its picture"},
     {"LIGHT.json", "coefficients written by 'lambent light'"},
 };
 
@@ -90,7 +92,7 @@ std::size_t endOfTerm(std::string_view text, std::size_t at) {
     if (exponent) continue;
     firstPlus = std::min(firstPlus, i);
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(std::string(text.substr(name, i - name)), ignored))
+    if (std::filesystem::is_regular_file(pictureNameOf(text.substr(name, i - name)).path, ignored))
       asFile = i;
   }
   return asFile ? asFile : firstPlus;
@@ -156,9 +158,9 @@ Result<WithFindings<sky::ResolvedSky>> resolvedSky(std::string_view text) {
 
 std::vector<std::filesystem::path> filesOf(std::string_view term) {
   const SourceKind* kind = kindOf(term);
-  if (!kind) return {std::string(term)};
+  if (!kind) return {pictureNameOf(term).path};
   const std::string_view rest = term.substr(std::min(kind->word.size() + 1, term.size()));
-  if (kind->takes == Takes::File) return {std::string(rest)};
+  if (kind->takes == Takes::File) return {pictureNameOf(rest).path};
   if (kind->takes == Takes::Keys)
     if (const std::optional<std::string_view> file = atmosphereOf(rest))
       return {std::string(*file)};

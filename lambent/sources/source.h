@@ -30,7 +30,8 @@ struct SourceOptions {
   Progress progress = {};
 };
 
-/// FILE.exr|.hdr|.png (lat-long, 2:1) | cube:FILE | angular:FILE | ball:FILE (see image::MapKind) |
+/// FILE.exr|.hdr|.png|.jpg|.webp (lat-long, 2:1, or what an .exr says it is) | latlong:FILE (any size) |
+/// cube:FILE | angular:FILE | ball:FILE (see image::MapKind), each FILE.exr:LAYER for a layer or part |
 /// LIGHT.json | uniform[:RADIANCE] |
 /// disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE] | directional:AZIMUTH,ELEVATION[,IRRADIANCE]
 /// (degrees; azimuth from +x towards +z) | sky:KEY=VALUE,… (see sky/sky_request.h: dome, Sun and
@@ -38,7 +39,8 @@ struct SourceOptions {
 /// (W m⁻² sr⁻¹) and IRRADIANCE (W m⁻², on a surface that faces the light) are one number or R/G/B.
 ///
 /// What cannot be understood is BadUsage, what is wrong with a file BadInput. Negative channels of
-/// an image become 0 ("light-pixels-negative").
+/// an image become 0 ("light-pixels-negative"), and one made for a screen is no whole light
+/// ("light-not-hdr"); what image::readPicture finds is told too.
 Result<WithFindings<light::Environment>> parseSource(std::string_view text,
                                                      const SourceOptions& options = {});
 
@@ -69,6 +71,13 @@ struct SourceKind {
 std::span<const SourceKind> sourceKinds();
 /// The kind whose word a term begins with; null if the term is the name of a file.
 const SourceKind* kindOf(std::string_view term);
+
+/// FILE.exr:LAYER in two; a file that has such a name is one.
+struct PictureName {
+  std::filesystem::path path;
+  std::string layer;  ///< or empty
+};
+PictureName pictureNameOf(std::string_view name);
 
 /// The files that one term names: a map, a LIGHT.json, the atmosphere of a sky.
 std::vector<std::filesystem::path> filesOf(std::string_view term);

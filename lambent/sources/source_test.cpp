@@ -237,6 +237,48 @@ TEST_F(Source, ImagesThatAreNoLight) {
   expectError("cube:", ErrorKind::BadUsage, {"cube:probe.exr"});
 }
 
+TEST_F(Source, LayersOfAFile) {
+  image::Image picture(8, 4), diffuse(8, 4);
+  for (Rgb& p : picture.pixels) p = Rgb(1, 2, 3);
+  for (Rgb& p : diffuse.pixels) p = Rgb(0.5f, 0.25f, 0.125f);
+  const std::string file = path("a+b.exr");
+  ASSERT_TRUE(image::write(picture, file, {.halfFloat = false, .layers = {{"diffuse", &diffuse}}}));
+  const auto whole = parseSource(file);
+  ASSERT_TRUE(whole) << whole.error().message;
+  ASSERT_EQ(whole->findings.size(), 1u);
+  EXPECT_EQ(whole->findings[0].code, "exr-layers");
+  expectLight(file + ":diffuse", Environment::latLong(diffuse));
+  expectLight(file + ":diffuse+" + file + ":diffuse",
+              Environment::latLong(diffuse) + Environment::latLong(diffuse));
+  expectLight("latlong:" + file + ":diffuse", Environment::latLong(diffuse));
+  expectError(file + ":none", ErrorKind::BadInput, {"a+b.exr", "no layer none", "diffuse"});
+  EXPECT_EQ(filesOf(file + ":diffuse"), std::vector<std::filesystem::path>{file});
+  EXPECT_EQ(filesOf("cube:" + file + ":diffuse"), std::vector<std::filesystem::path>{file});
+  // Only of OpenEXR; and a file of such a name is a file.
+  EXPECT_EQ(pictureNameOf("a.hdr:x").path, "a.hdr:x");
+  std::filesystem::copy_file(file, path("c.exr:d"));
+  EXPECT_EQ(pictureNameOf(path("c.exr:d")).layer, "");
+}
+
+TEST_F(Source, MapsOfAnyShapeByAWord) {
+  image::Image tall(8, 8);  // a latitude-longitude map, stretched
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x) tall.at(x, y) = y < 4 ? Rgb(4, 4, 4) : Rgb(2, 2, 2);
+  const auto light = parseSource("latlong:" + writeImage("tall.exr", tall));
+  ASSERT_TRUE(light) << light.error().message;
+  EXPECT_NEAR(light->value.radiance(Vec3::UnitY())[0], 4, 1e-3);
+  EXPECT_NEAR(light->value.radiance(-Vec3::UnitY())[1], 2, 1e-3);
+}
+
+TEST_F(Source, WhatWasMadeForAScreenIsTold) {
+  image::Image map(8, 4);
+  for (Rgb& p : map.pixels) p = Rgb(1, 1, 1);
+  const auto light = parseSource(writeImage("map.png", map));
+  ASSERT_TRUE(light) << light.error().message;
+  ASSERT_EQ(light->findings.size(), 1u);
+  EXPECT_EQ(light->findings[0].code, "light-not-hdr");
+}
+
 TEST_F(Source, PixelsThatAreNoRadiance) {
   image::Image image(8, 4);
   for (Rgb& p : image.pixels) p = Rgb(1, 2, 3);
@@ -298,6 +340,7 @@ TEST_F(Source, TheTableKnowsEveryWord) {
 TEST_F(Source, HelpHasALineForEveryForm) {
   EXPECT_EQ(sourceHelp(), R"(SOURCE of light:
   FILE.exr FILE.hdr FILE.png   an environment image, latitude-longitude
+  FILE.exr:LAYER               a layer or part of it that is not its picture
   LIGHT.json                   coefficients written by 'lambent light'
   uniform[:RADIANCE]           the same from everywhere
   disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]

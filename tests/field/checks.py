@@ -22,6 +22,12 @@ class Tool(ToolTest):
         self.run_tool("shade", asset, "--light", light, "-o", "shaded.csv", "--quiet")
         return read_csv(self.path("shaded.csv"))
 
+    def coefficients(self, source: str):
+        """Of the light that a SOURCE is, in one row."""
+        self.run_tool("light", source, "-o", "light.json", "--quiet")
+        document = json.loads(self.path("light.json").read_text())
+        return [value for three in document["coefficients"] for value in three]
+
 
 def everywhere(_row) -> bool:
     return True
@@ -126,6 +132,36 @@ class Custom:
 
     def check(self, tool: Tool):
         self.test(tool)
+
+
+@dataclass
+class Light:
+    """`light` makes of the SOURCE a light of this mean radiance, and reports these codes and no others."""
+    source: str
+    rgb: Sequence[float]
+    finds: Sequence[str] = ()
+    within: float = 2e-3
+
+    def check(self, tool: Tool):
+        summary = tool.run_json("light", self.source, "-o", "light.json")
+        for got, right in zip(summary["light"]["mean_radiance"], self.rgb):
+            tool.assertAlmostEqual(got, right, delta=self.within * max(self.rgb))
+        tool.assertEqual({found["code"] for found in summary["findings"]}, set(self.finds))
+
+
+@dataclass
+class SameLight:
+    """Two SOURCEs are the same light: the relative RMS difference of their coefficients."""
+    source: str
+    other: str
+    within: float = 0.02
+
+    def check(self, tool: Tool):
+        a, b = (tool.coefficients(source) for source in (self.source, self.other))
+        wrong = math.dist(a, b) / math.hypot(*b)
+        tool.assertLess(wrong, self.within)
+        # They have a direction: a constant light would be the same whichever way it lay.
+        tool.assertGreater(math.hypot(*b[3:]), 0.1 * math.hypot(*b))
 
 
 def said(tool: Tool, findings, finds, silent):

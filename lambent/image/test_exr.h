@@ -1,0 +1,58 @@
+// OpenEXR files of any parts, channels and attributes for tests, written by OpenEXR itself.
+#pragma once
+
+#include <ImathBox.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lambent::image {
+
+/// A part of one value in every pixel of each channel.
+struct ExrPart {
+  std::string name;
+  std::map<std::string, float> channels;
+  Imf::Header header = Imf::Header(8, 4);
+};
+
+inline void writeExrParts(const std::string& path, std::vector<ExrPart> parts) {
+  std::vector<Imf::Header> headers;
+  for (ExrPart& part : parts) {
+    part.header.setType(Imf::SCANLINEIMAGE);
+    if (!part.name.empty()) part.header.setName(part.name);
+    for (const auto& [name, value] : part.channels)
+      part.header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    headers.push_back(part.header);
+  }
+  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Imf::FrameBuffer frame;
+    for (auto& [name, value] : parts[i].channels)  // a stride of 0: one value for all pixels
+      frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&value), 0, 0));
+    Imf::OutputPart part(file, static_cast<int>(i));
+    part.setFrameBuffer(frame);
+    const Imath::Box2i& window = headers[i].dataWindow();
+    part.writePixels(window.max.y - window.min.y + 1);
+  }
+}
+
+/// R, G and B of a layer.
+inline std::map<std::string, float> rgbOf(const std::string& layer, float r, float g, float b) {
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  return {{prefix + "R", r}, {prefix + "G", g}, {prefix + "B", b}};
+}
+
+inline std::map<std::string, float> operator+(std::map<std::string, float> a,
+                                              const std::map<std::string, float>& b) {
+  a.insert(b.begin(), b.end());
+  return a;
+}
+
+}  // namespace lambent::image
