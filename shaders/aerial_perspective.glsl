@@ -29,18 +29,21 @@ vec3 airFromSun(AirBetween air, float cosine) {
   return air.fromAir * rayleighPhase(cosine) + air.fromAerosol * phaseOfAerosols(cosine);
 }
 
+// Distance to the ground from a height above it: sky::AirTableAxes::toGround.
+float airToGround(float sine, float height) {
+  float b = (airShell.x + height) * sine, c = height * (2.0 * airShell.x + height);
+  float root = sqrt(max(b * b - c, 0.0));
+  return c / max(root - b, max(sqrt(c), 0.001));
+}
+
 // Distance to the end of a ray: sky::AirTableAxes::reach.
 float airReach(bool above, float sine) {
   float radius = airShell.x, height = airShell.y, altitude = airShell.z;
+  if (!above) return max(airToGround(sine, altitude), kAirLeastReach);
   float b = (radius + altitude) * sine;
-  if (above) {
-    float c = (height - altitude) * (2.0 * radius + height + altitude);
-    float root = sqrt(b * b + c);
-    return max(b > 0.0 ? c / (root + b) : root - b, 1.0);
-  }
-  float c = altitude * (2.0 * radius + altitude);
-  float root = sqrt(max(b * b - c, 0.0));
-  return max(c / max(root - b, 0.001), kAirLeastReach);
+  float c = (height - altitude) * (2.0 * radius + height + altitude);
+  float root = sqrt(b * b + c);
+  return max(b > 0.0 ? c / (root + b) : root - b, 1.0);
 }
 
 // 1 − e^(−x), which floats lose for a small x.
@@ -112,4 +115,13 @@ AirBetween constantAirBetween(float metres) {
 vec3 throughAir(AirBetween air, vec3 direction, vec3 radiance) {
   float cosine = clamp(dot(direction, towardsSun), -1.0, 1.0);
   return air.extinction * radiance + airFromSun(air, cosine) + air.multiple;
+}
+
+const float kAirLeastEyeHeight = 1.6;
+
+// L_s of what an environment shows from a place `height` m up in the scene: shade::Air::seenBehind.
+vec3 throughAirBehind(vec3 direction, float height, vec3 radiance) {
+  if (atan(direction.y, length(direction.xz)) >= airShell.w) return radiance;
+  float metres = airToGround(direction.y, max(max(airShell.z, height), kAirLeastEyeHeight));
+  return throughAir(airBetween(direction, metres), direction, radiance);
 }

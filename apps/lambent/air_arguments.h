@@ -1,10 +1,14 @@
 // The air of the light's sky in a picture.
 #pragma once
 
+#include <optional>
+
 #include "apps/lambent/console.h"
-#include "lambent/math/types.h"
+#include "apps/lambent/state_arguments.h"
 #include "lambent/report/result.h"
 #include "lambent/shade/air.h"
+#include "lambent/sky/make_aerial_perspective.h"
+#include "lambent/view/view_state.h"
 
 namespace CLI {
 class App;
@@ -14,14 +18,23 @@ namespace lambent::tool {
 
 struct AirArguments {
   bool wanted = false;
-  double metresPerUnit = 1;
-  bool shafts = false;
+  view::AirShown air;
 
   /// --air, --metres-per-unit, --shafts.
   void addTo(CLI::App& app);
-  /// The air of the sky in a SOURCE whose light was turned by `assetFromSource`.
-  Result<shade::Air> make(const std::string& source, const Mat3d& assetFromSource,
-                          Console& console) const;
+  /// What is asked for: by the options and, where they say nothing, by a state. BadUsage: options of
+  /// an air that neither asks for.
+  Result<std::optional<view::AirShown>> shown(const CLI::App& app,
+                                              const std::optional<view::AirShown>& state) const;
 };
+
+/// What an air is made for.
+struct AirUse {
+  const Shot& shot;      ///< of whose light it is
+  sky::AerialForm form;  ///< Table, or Exact beside it
+  bool sun;              ///< there is one for shafts of light
+  bool shaftsInsisted;   ///< they are BadUsage without a Sun, and not left out with a word
+};
+Result<shade::Air> makeAir(view::AirShown shown, const AirUse& use, Console& console);
 
 }  // namespace lambent::tool

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/lambent/air_arguments.h"
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
@@ -33,6 +34,7 @@ struct ReferenceRequest {
   std::filesystem::path output;
   ViewArguments view;
   DevelopmentArguments development;
+  AirArguments air;
   reference::PathTraceOptions options;
   transfer::Kind transfer = transfer::Kind::Interreflected;
   int bands = 0;
@@ -49,6 +51,8 @@ Examples:
   lambent reference bunny.glb --light sky.exr -o truth.exr --bands 5
       The light cut to the 5 bands that a bake of 5 bands sees: what then differs from
       'lambent render' is the error of the bake, not of the light.
+  lambent reference hills.glb --light sky:sun-elevation=8 -o truth.exr --background --air
+      Through the air of that sky, by the integral itself; 'render' looks it up in a table.
   lambent reference bunny.obj --view state.json -o truth.exr --bands 5
       What was set up in 'lambent view' and saved there: light and camera as the object sees them.
   lambent reference bunny.obj --light sky.exr --bands 5 -o truth.csv --spp 1024
@@ -151,7 +155,8 @@ Result<Shot> shotOf(const ReferenceRequest& arguments, const std::optional<view:
       if (!chosen) return chosen.error();
       camera = *chosen;
     }
-    shot = Shot{*environment, light, camera};
+    shot = Shot{
+        *environment, light, camera, {}, arguments.light.source, arguments.light.worldFromSource()};
   }
   if (arguments.bands > 0) shot->environment = light::Environment::harmonics(shot->light);
   return shot;
@@ -187,8 +192,23 @@ Status runReference(ReferenceRequest arguments, Console& console) {
   if (arguments.transfer != transfer::Kind::Interreflected) options.bounces = 0;
   options.background = arguments.view.background;
   options.threads = console.options().threads;
-  if (asksForReceivers(arguments.output))
+  const auto air =
+      arguments.air.shown(*arguments.app, state ? state->air : std::optional<view::AirShown>());
+  if (!air) return air.error();
+  if (asksForReceivers(arguments.output)) {
+    if (arguments.air.wanted) return badUsage("--air is of pictures: vertices have no viewer");
     return traceReceivers(arguments, *scene, *rays, shot->environment, console);
+  }
+  if (*air) {
+    auto made = makeAir(**air,
+                        {.shot = *shot,
+                         .form = sky::AerialForm::Exact,
+                         .sun = light::sunOf(shot->environment).has_value(),
+                         .shaftsInsisted = arguments.given("--shafts")},
+                        console);
+    if (!made) return made.error();
+    options.air = std::move(*made);
+  }
   const auto began = std::chrono::steady_clock::now();
   auto picture =
       reference::picture(*scene, *rays, shot->environment, shot->camera, arguments.view.size.width,
@@ -213,6 +233,8 @@ Status runReference(ReferenceRequest arguments, Console& console) {
        {"spp", options.samples},
        {"bounces", options.bounces},
        {"bands", arguments.bands},
+       {"metres_per_unit", options.air ? nlohmann::json(options.air->metresPerUnit) : nullptr},
+       {"shafts", options.air && options.air->shafts},
        {"estimated_relative_rmse", error},
        {"exposure", ev},
        {"seconds", seconds},
@@ -270,6 +292,7 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
       ->option_text("X,Y,Z")
       ->group("View");
   arguments->view.addTo(*app, 32768);
+  arguments->air.addTo(*app);
   arguments->development.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runReference(*arguments, console); }};

@@ -135,8 +135,15 @@ Status runRender(RenderRequest arguments, Console& console) {
   if (Status s = checkHeld(*asset, options.showing, arguments.asset); !s) return s;
   options.sun = shot->sun;
   if (options.sun) console.report(shade::sharpSunFindings(*asset, options.showing));
-  if (arguments.air.wanted) {
-    auto air = arguments.air.make(shot->source, shot->assetFromEnvironment, console);
+  auto shown = arguments.air.shown(*arguments.app, state ? state->air : std::nullopt);
+  if (!shown) return shown.error();
+  if (*shown) {
+    auto air = makeAir(**shown,
+                       {.shot = *shot,
+                        .form = sky::AerialForm::Table,
+                        .sun = shot->sun.has_value(),
+                        .shaftsInsisted = arguments.given("--shafts")},
+                       console);
     if (!air) return air.error();
     options.air = std::move(*air);
   }

@@ -79,6 +79,7 @@ Result<image::Image> hazyPicture(const HazeArguments& haze, const MapArguments& 
 
   const auto air = sky::makeAerialPerspective(resolved.options, haze.form, console.progress());
   if (!air) return air.error();
+  console.report(air->findings);
   std::optional<sky::Sky> backdrop;
   if (haze.backdrop) {
     auto made = sky::makeSky(resolved.options, console.progress());
@@ -88,7 +89,7 @@ Result<image::Image> hazyPicture(const HazeArguments& haze, const MapArguments& 
     options.backdrop = &*backdrop;
     options.below = sky::belowHorizonOf(resolved.options.model);
   }
-  return sky::haze(*color, *depth, *air, options, console.progress());
+  return sky::haze(*color, *depth, air->value, options, console.progress());
 }
 
 }  // namespace lambent::tool

@@ -58,6 +58,7 @@ Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
   if (!parsed) return parsed.error();
   if (Status whole = console.accept(parsed->findings); !whole) return whole.error();
   const light::Environment& environment = parsed->value;
+  const Mat3d assetFromWorld = view::matrixOf(state.objectRotation).transpose();
   return console.stage("project", [&] {
     view::StateLight light(environment, options.bands);
     return Shot{view::assetEnvironment(state, environment),
@@ -65,8 +66,8 @@ Result<Shot> shotOf(const view::ViewState& state, const scene::Scene& scene,
                 view::assetCamera(state, camera),
                 light.sharpSun(state),
                 state.environment,
-                Mat3d(view::matrixOf(state.objectRotation).transpose() *
-                      view::matrixOf(state.environmentRotation))};
+                Mat3d(assetFromWorld * view::matrixOf(state.environmentRotation)),
+                -(assetFromWorld * state.objectTranslation.cast<double>()).cast<float>()};
   });
 }
 

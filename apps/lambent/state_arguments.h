@@ -35,6 +35,7 @@ struct Shot {
   std::optional<shade::SharpSun> sun = {};         ///< where its shadows are to be sharp
   std::string source = {};                         ///< what the environment was made of
   Mat3d assetFromEnvironment = Mat3d::Identity();  ///< how it was turned after that
+  Vec3 worldOrigin = Vec3::Zero();                 ///< where the world's origin came to lie
 };
 
 struct ShotOptions {

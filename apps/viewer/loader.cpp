@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "apps/viewer/sky_control.h"
+#include "lambent/sky/make_aerial_perspective.h"
 #include "lambent/sky/make_sky.h"
 #include "lambent/sky/sky_light.h"
 #include "lambent/sources/source.h"
@@ -43,6 +44,22 @@ Result<LoadedEnvironment> makeSky(const std::string& source, const sky::SkyReque
                            std::move(resolved->findings)};
   loaded.findings.insert(loaded.findings.end(), made->findings.begin(), made->findings.end());
   return loaded;
+}
+
+Result<LoadedAir> makeAir(const std::string& source, sky::AirMaker& maker,
+                          const Progress& progress) {
+  auto resolved = sources::resolvedSky(source);
+  if (!resolved) return resolved.error();
+  auto made = maker.make(resolved->value.options, sky::AerialForm::Table, progress);
+  if (!made) return made.error();
+  auto& table = std::get<sky::AirTable>(made->value);
+  return LoadedAir{source, std::make_shared<const sky::AirTable>(std::move(table)),
+                   resolved->value.worldFromSun, std::move(made->findings)};
+}
+
+template <class T>
+Result<Loaded> loadedOf(Result<T> made) {
+  return made ? Result<Loaded>(Loaded(std::move(*made))) : Result<Loaded>(made.error());
 }
 
 }  // namespace
@@ -97,20 +114,28 @@ void Loader::readSky(std::string source) {
   woken_.notify_one();
 }
 
+void Loader::readAir(std::string source) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(requests_, [](const Request& each) { return each.what == Request::What::Air; });
+  requests_.push_back({Request::What::Air, std::move(source)});
+  woken_.notify_one();
+}
+
 bool Loader::goesOn(const Request& request, const ProgressUpdate& update) {
   const std::lock_guard lock(mutex_);
   share_ =
       update.total > 0 ? std::optional(double(update.done) / double(update.total)) : std::nullopt;
-  if (request.what != Request::What::Sky) return true;
+  if (!givesWay(request)) return true;
   const auto mine = skyOf(request.name);
   return std::none_of(requests_.begin(), requests_.end(), [&](const Request& each) {
-    const auto next = each.what == Request::What::Sky ? skyOf(each.name) : std::nullopt;
+    const auto next = each.what == request.what ? skyOf(each.name) : std::nullopt;
     return next && mine && (mine->model == sky::Model::Exact || !sameAir(*mine, *next));
   });
 }
 
 void Loader::work(std::stop_token stop) {
   sky::SkyMaker skies;
+  sky::AirMaker airs;
   for (;;) {
     Request request;
     asset::ReadOptions reading;
@@ -130,14 +155,15 @@ void Loader::work(std::stop_token stop) {
     };
     try {
       if (request.what == Request::What::Asset) {
-        auto asset = viewer::readAsset(request.name, reading);
-        result = asset ? Result<Loaded>(Loaded(std::move(*asset))) : Result<Loaded>(asset.error());
+        result = loadedOf(viewer::readAsset(request.name, reading));
+      } else if (request.what == Request::What::Air) {
+        result = loadedOf(viewer::makeAir(request.name, airs, progress));
       } else {
         const auto sky = skyOf(request.name);
         auto light = sky ? viewer::makeSky(request.name, *sky, skies, progress)
                          : viewer::readEnvironment(request.name, reading, progress);
         if (light) light->underTheHand = request.what == Request::What::Sky;
-        result = light ? Result<Loaded>(Loaded(std::move(*light))) : Result<Loaded>(light.error());
+        result = loadedOf(std::move(light));
       }
     } catch (const std::bad_alloc&) {
       result = report::failed(fmt::format("{}: not enough memory to read it", request.name));
@@ -146,8 +172,8 @@ void Loader::work(std::stop_token stop) {
     }
     const std::lock_guard lock(mutex_);
     // Of a sky that was given up for another nobody hears.
-    const bool givenUp = request.what == Request::What::Sky && !result &&
-                         result.error().kind == ErrorKind::Cancelled;
+    const bool givenUp =
+        givesWay(request) && !result && result.error().kind == ErrorKind::Cancelled;
     if (!givenUp) results_.push_back(std::move(result));
     current_.reset();
   }

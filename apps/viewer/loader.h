@@ -14,9 +14,14 @@
 
 #include "lambent/asset/read.h"
 #include "lambent/light/environment.h"
+#include "lambent/math/types.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
+
+namespace lambent::sky {
+class AirTable;
+}
 
 namespace lambent::viewer {
 
@@ -32,7 +37,15 @@ struct LoadedEnvironment {
   bool underTheHand = false;  ///< asked for by readSky()
 };
 
-using Loaded = std::variant<LoadedAsset, LoadedEnvironment>;
+/// The air of the sky in a SOURCE.
+struct LoadedAir {
+  std::string source;
+  std::shared_ptr<const sky::AirTable> table;
+  Mat3d worldFromSun;
+  Findings findings;
+};
+
+using Loaded = std::variant<LoadedAsset, LoadedEnvironment, LoadedAir>;
 
 /// Reads one after the other, in the sequence in which it was asked.
 class Loader {
@@ -48,6 +61,8 @@ class Loader {
   /// made, and a table that is being made for another air is given up. Skies share one maker: one
   /// of the same air as the last takes milliseconds.
   void readSky(std::string source);
+  /// The air of a SOURCE's one sky: of those that wait only the last is made. Airs share one maker.
+  void readAir(std::string source);
 
   /// What has been read meanwhile, or what was wrong with it.
   std::optional<Result<Loaded>> take();
@@ -60,10 +75,14 @@ class Loader {
 
  private:
   struct Request {
-    enum class What { Asset, Environment, Sky };
+    enum class What { Asset, Environment, Sky, Air };
     What what = What::Asset;
     std::string name;
   };
+  /// Whether a later one of its kind makes it needless.
+  static bool givesWay(const Request& request) {
+    return request.what == Request::What::Sky || request.what == Request::What::Air;
+  }
   void work(std::stop_token stop);
   bool goesOn(const Request& request, const ProgressUpdate& update);
 

@@ -211,6 +211,32 @@ Result<ScriptRunner::Step> ScriptRunner::runSky(const ScriptCommand& command, Se
   return session.busy() ? Step::Again : Step::Done;
 }
 
+namespace {
+
+/// set air, shafts, metres-per-unit.
+Status setAir(const std::string& name, const std::string& value,
+              std::optional<view::AirShown>& air) {
+  if (name != "air" && !air) return badInput("there is no air: 'set air on' first");
+  if (name == "metres-per-unit") {
+    const Result<double> given = number(value);
+    if (!given) return given.error();
+    if (!(*given >= shade::kLeastMetresPerUnit && *given <= shade::kMostMetresPerUnit))
+      return badInput(fmt::format("'{}' metres: from {:g} to {:g}", value,
+                                  shade::kLeastMetresPerUnit, shade::kMostMetresPerUnit));
+    air->metresPerUnit = *given;
+    return Status::ok();
+  }
+  const Result<bool> on = onOff(value);
+  if (!on) return on.error();
+  if (name == "shafts")
+    air->shafts = *on;
+  else if (*on != air.has_value())
+    air = *on ? std::optional<view::AirShown>(std::in_place) : std::nullopt;
+  return Status::ok();
+}
+
+}  // namespace
+
 Status ScriptRunner::set(const std::string& name, const std::string& value, Scene& scene) {
   view::ViewState& state = scene.session.state;
   const std::pair<const char*, bool*> switches[] = {{"macro", &state.macro},
@@ -226,6 +252,8 @@ Status ScriptRunner::set(const std::string& name, const std::string& value, Scen
     *target = *on;
     return Status::ok();
   }
+  if (name == "air" || name == "shafts" || name == "metres-per-unit")
+    return setAir(name, value, state.air);
   if (name == "tone") {
     if (value != "filmic" && value != "linear")
       return badInput(fmt::format("'{}' is neither filmic nor linear", value));
@@ -297,7 +325,13 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
   if (name == "load" || name == "environment" || name == "state" || name == "drop")
     return runFile(command, scene);
   if (name == "sky" || (name == "drag" && word(1) == "sky")) return runSky(command, session);
-  if (name == "set") return done(set(word(1), word(2), scene));
+  if (name == "set") {
+    if (!begun_)
+      if (Status s = set(word(1), word(2), scene); !s) return s.error();
+    if (word(1) != "air") return Step::Done;
+    session.seekAir();
+    return session.busy() ? Step::Again : Step::Done;
+  }
   if (name == "frame") session.frameAll(scene.layout.picture);
   if (name == "orbit" || name == "pan" || name == "zoom" || name == "move") {
     const auto given = numbers(command, 1, name == "move" ? kMost : kFurthest);

@@ -8,6 +8,7 @@
 
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/io.h"
+#include "lambent/sources/source.h"
 #include "lambent/view/orbit.h"
 #include "lambent/view/placement.h"
 
@@ -86,7 +87,23 @@ bool Session::collect() {
     }
     std::visit([this](auto& loaded) { take(std::move(loaded)); }, **read);
   }
+  seekAir();
   return any;
+}
+
+void Session::seekAir() {
+  if (!state.air || airSource_ == state.environment) return;
+  airSource_ = state.environment;
+  airRemark_.clear();
+  if (const auto sky = sources::resolvedSky(airSource_); sky) return loader_.readAir(airSource_);
+  airRemark_ = "No air: the light is not that of one sky.";
+  notices.remarkOnce(airRemark_);
+  stage.setAir(nullptr, Mat3d::Identity());
+}
+
+void Session::take(LoadedAir loaded) {
+  for (const Finding& finding : loaded.findings) notices.remarkOnce(finding.message);
+  stage.setAir(std::move(loaded.table), loaded.worldFromSun);
 }
 
 void Session::take(LoadedAsset loaded) {

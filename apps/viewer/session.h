@@ -55,6 +55,11 @@ class Session {
   /// Why the sky is not the one of the moment that was asked for; empty if it is.
   const std::string& skyRemark() const { return skyRemark_; }
 
+  /// Has the air of the light's sky made, where the state wants it and has none of this light yet.
+  void seekAir();
+  /// Why there is no air although the state wants it; empty if there is.
+  const std::string& airRemark() const { return airRemark_; }
+
   /// Shows what has been read since the last call. True if anything changed.
   bool collect();
   bool busy() const { return loader_.busy(); }
@@ -80,12 +85,15 @@ class Session {
  private:
   void take(LoadedAsset loaded);
   void take(LoadedEnvironment loaded);
+  void take(LoadedAir loaded);
   void nameEnvironment(const std::string& source, bool instead);
 
   Loader loader_;
   std::optional<view::ViewState> waiting_;  ///< a state whose environment is being read
   std::optional<sky::SkyRequest> sky_;
   std::string skyRemark_;
+  std::string airSource_;  ///< the SOURCE whose air is shown or waited for
+  std::string airRemark_;
 };
 
 }  // namespace lambent::viewer

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "apps/viewer/panels.h"
 
@@ -144,12 +145,40 @@ Answer chooseAir(sky::SkyRequest& request, bool live) {
   return answer;
 }
 
+/// The air before what is seen, of the state.
+void drawAirShown(Session& session) {
+  std::optional<view::AirShown>& air = session.state.air;
+  bool shown = air.has_value();
+  if (ImGui::Checkbox("aerial perspective", &shown))
+    air = shown ? std::optional<view::AirShown>(std::in_place) : std::nullopt;
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("What is far away is seen through this sky's air");
+  if (!air) return;
+  ImGui::SameLine();
+  const bool sharp = session.state.sunShadow == shade::SunShadow::Sharp;
+  ImGui::BeginDisabled(!sharp);
+  ImGui::Checkbox("shafts", &air->shafts);
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", sharp ? "Of light: shadows of the Sun in the air"
+                                  : "They take a sharp Sun (see Transfer)");
+  float metres = float(air->metresPerUnit);
+  ImGui::PushItemWidth(-ImGui::GetFontSize() * 6.2f);
+  if (ImGui::SliderFloat("a unit is", &metres, 0.01f, 1e5f, "%.4g m",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+    // Digits as a person would write them.
+    air->metresPerUnit = std::strtod(fmt::format("{:.3g}", metres).c_str(), nullptr);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("How large the scene is");
+  ImGui::PopItemWidth();
+  if (!session.airRemark().empty()) ImGui::TextWrapped("%s", session.airRemark().c_str());
+}
+
 }  // namespace
 
 void drawSky(Session& session) {
   if (!session.sky()) {
     if (ImGui::Button("Light it by the sky", {-1, 0})) session.showSky(firstSky());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Of any place and moment");
+    if (session.state.air) drawAirShown(session);
     return;
   }
   sky::SkyRequest request = *session.sky();
@@ -181,6 +210,8 @@ void drawSky(Session& session) {
   if (ImGui::Checkbox("exposure follows", &session.desk.exposeSky) && session.desk.exposeSky)
     session.state.exposure = exposureFor(session.stage.environment());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Day and night differ by a factor of 10⁸");
+
+  drawAirShown(session);
 
   if (answer == Answer::Held) session.holdSky(request);
   if (answer == Answer::Wanted) session.showSky(request);

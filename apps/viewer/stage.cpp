@@ -74,6 +74,12 @@ void Stage::setEnvironment(const light::Environment& environment) {
   drawn_.reset();
 }
 
+void Stage::setAir(std::shared_ptr<const sky::AirTable> table, const Mat3d& environmentFromSun) {
+  air_ = std::move(table);
+  environmentFromSun_ = environmentFromSun;
+  drawn_.reset();
+}
+
 Status Stage::setSurroundings(std::unique_ptr<Surroundings> surroundings) {
   if (surroundings && renderer_)
     if (Status s = surroundings->attach(*renderer_, *asset_->asset); !s) return s;
@@ -114,6 +120,12 @@ Status Stage::hangBackdrop(const view::ViewState& state) {
   return Status::ok();
 }
 
+Status Stage::letAirIn(const view::ViewState& state, const PixelSize& size) {
+  // What an orthographic camera sees has no distance.
+  if (!air_ || camera(state, size).orthographicHalfHeight) return renderer_->setAir(std::nullopt);
+  return renderer_->setAir(view::assetAir(state, air_, environmentFromSun_));
+}
+
 Status Stage::prepare(const view::ViewState& state, const PixelSize& size, bool moving) {
   if (!options_ || !sameOptions(*options_, state)) {
     if (Status s = renderer_->choose(view::showingOf(state)); !s) return s;
@@ -123,6 +135,7 @@ Status Stage::prepare(const view::ViewState& state, const PixelSize& size, bool 
     if (Status s = renderer_->resize(size.width, size.height); !s) return s;
     size_ = size;
   }
+  if (Status s = letAirIn(state, size); !s) return s;
   const bool stale =
       !backdrop_ || backdrop_->discs != state.discs ||
       (!state.discs.empty() && backdrop_->environmentRotation != state.environmentRotation);

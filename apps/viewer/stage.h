@@ -28,6 +28,8 @@ class Stage {
   /// Uploads the asset and shows it from now on; what was shown before stays if that fails.
   Status show(LoadedAsset loaded, const view::ViewState& state);
   void setEnvironment(const light::Environment& environment);
+  /// The air of the environment's sky: shown where the state wants it. Null: it has no sky.
+  void setAir(std::shared_ptr<const sky::AirTable> table, const Mat3d& environmentFromSun);
   /// What moves around the asset and lights it, or nothing.
   Status setSurroundings(std::unique_ptr<Surroundings> surroundings);
   bool hasSurroundings() const { return surroundings_ != nullptr; }
@@ -67,6 +69,7 @@ class Stage {
   Status addSample(const view::ViewState& state, const PixelSize& size, const Vec2& place,
                    int samples);
   Status hangBackdrop(const view::ViewState& state);
+  Status letAirIn(const view::ViewState& state, const PixelSize& size);
 
   struct Drawn {
     view::ViewState state;
@@ -80,6 +83,8 @@ class Stage {
   scene::Box box_;
   light::Environment environment_ = light::Environment::uniform(Rgb::Ones());
   std::optional<view::StateLight> light_;
+  std::shared_ptr<const sky::AirTable> air_;
+  Mat3d environmentFromSun_ = Mat3d::Identity();
   std::optional<Drawn> drawn_;
   std::optional<view::ViewState> options_, backdrop_;  ///< for which the renderer was set up
   PixelSize size_;

@@ -41,10 +41,37 @@ Vec3 Integrator::lifted(const scene::SurfacePoint& point) const {
   return point.position + rays_.offset() * point.normal;
 }
 
-Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint) const {
+void Integrator::lookFrom(const scene::Camera& camera) {
+  const std::optional<light::Sun> sun = light::sunOf(environment_);
+  if (!options_.air || !options_.air->shafts || !sun) return;
+  shafts_.emplace(*options_.air, rays_, camera, scene::bounds(scene_), ShadowedAir::By::March);
+  towardsSun_ = light::pointsOf(*sun, 1).front().direction;
+}
+
+/// Of what comes through it, air leaves a share and adds its own.
+void Integrator::passAir(const scene::Ray& ray, std::optional<float> distance, int mirrors,
+                         Rgb& tint, Rgb& veil) const {
+  if (shafts_ && mirrors == 0) veil -= tint * shafts_->missing(ray, distance, towardsSun_);
+  if (!distance) return;
+  const sky::AirBetween air = options_.air->between(ray.direction, *distance);
+  veil += tint * air.inScattered().cast<float>();
+  tint *= air.extinction.cast<float>();
+}
+
+Rgb Integrator::radianceBehind(const Escaped& escaped) const {
+  const Rgb radiance = environment_.radiance(escaped.direction);
+  return options_.air ? options_.air->seenBehind(escaped.origin, escaped.direction, radiance)
+                      : radiance;
+}
+
+Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint,
+                                   Rgb* veil) const {
   for (;; ++mirrors) {
     const std::optional<trace::Hit> hit = rays_.closest(origin, direction);
-    if (!hit) return Escaped{direction, mirrors};
+    if (veil && options_.air)
+      passAir({origin, direction}, hit ? std::optional(hit->distance) : std::nullopt, mirrors, tint,
+              *veil);
+    if (!hit) return Escaped{origin, direction, mirrors};
     if (hit->backFace) return Blocked{};
     const scene::SurfacePoint point =
         scene::surfaceAt(scene_, hit->mesh, hit->triangle, hit->u, hit->v);
@@ -71,17 +98,17 @@ Rgb Integrator::leaving(const scene::SurfacePoint& point, const Vec3& toViewer,
 }
 
 Integrator::Seen Integrator::seen(const scene::Ray& ray, Sampler& sampler) const {
-  Rgb tint = Rgb::Ones();
-  const End end = follow(ray.origin, ray.direction, 0, tint);
+  Rgb tint = Rgb::Ones(), veil = Rgb::Zero();
+  const End end = follow(ray.origin, ray.direction, 0, tint, &veil);
   if (const auto* surface = std::get_if<Surface>(&end))
-    return {
-        tint * (surface->point.emission + scattered(surface->point, surface->toViewer, sampler)),
-        1.0f};
+    return {veil + tint * (surface->point.emission +
+                           scattered(surface->point, surface->toViewer, sampler)),
+            1.0f};
   if (const auto* escaped = std::get_if<Escaped>(&end)) {
     if (escaped->mirrors == 0 && !options_.background) return {Rgb::Zero(), 0.0f};
-    return {tint * environment_.radiance(escaped->direction), 1.0f};
+    return {veil + tint * radianceBehind(*escaped), 1.0f};
   }
-  return {Rgb::Zero(), 1.0f};
+  return {veil, 1.0f};
 }
 
 Rgb Integrator::drawnFromEmitters(const Vec3& origin, const Scattering& scattering,
@@ -134,9 +161,9 @@ Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sam
 
     End end = Blocked{};
     if (!options_.shadows) {
-      end = Escaped{direction, 0};
+      end = Escaped{origin, direction, 0};
     } else if (bounce == bounces && !hasMirrors_ && emitters_.empty()) {
-      if (!rays_.occluded(origin, direction)) end = Escaped{direction, 0};
+      if (!rays_.occluded(origin, direction)) end = Escaped{origin, direction, 0};
     } else {
       end = follow(origin, direction, 0, throughput);
     }

@@ -8,6 +8,7 @@
 #include "lambent/reference/path_tracer.h"
 #include "lambent/reference/sampler.h"
 #include "lambent/reference/scattering.h"
+#include "lambent/reference/shadowed_air.h"
 #include "lambent/scene/camera.h"
 #include "lambent/trace/ray_scene.h"
 
@@ -18,6 +19,9 @@ class Integrator {
   /// Keeps references: everything must outlive it.
   Integrator(const scene::Scene& scene, const trace::RayScene& rays,
              const light::Environment& environment, const PathTraceOptions& options);
+
+  /// Before seen(): shafts of light reach as far as the scene does from there.
+  void lookFrom(const scene::Camera& camera);
 
   /// An unbiased estimate of the radiance that leaves `point` towards `toViewer`.
   Rgb leaving(const scene::SurfacePoint& point, const Vec3& toViewer, Sampler& sampler) const;
@@ -30,7 +34,7 @@ class Integrator {
 
  private:
   struct Escaped {
-    Vec3 direction;
+    Vec3 origin, direction;
     int mirrors;
   };
   struct Blocked {};
@@ -39,9 +43,13 @@ class Integrator {
     Vec3 toViewer;  ///< back along the ray that arrived
     int mirrors;    ///< on the way
   };
-  /// Where a ray ends when mirrors are followed, and what they left of the light in `tint`.
+  /// Where a ray ends when mirrors are followed, and what they left of the light in `tint`; and air,
+  /// if `veil` is asked for: what it added.
   using End = std::variant<Blocked, Escaped, Surface>;
-  End follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint) const;
+  End follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint, Rgb* veil = nullptr) const;
+  void passAir(const scene::Ray& ray, std::optional<float> distance, int mirrors, Rgb& tint,
+               Rgb& veil) const;
+  Rgb radianceBehind(const Escaped& escaped) const;
 
   /// Without what the point itself emits.
   Rgb scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sampler) const;
@@ -53,6 +61,8 @@ class Integrator {
   const light::Environment& environment_;
   PathTraceOptions options_;
   Emitters emitters_;
+  std::optional<ShadowedAir> shafts_;
+  Vec3 towardsSun_ = Vec3::UnitY();  ///< of shafts_
   bool hasMirrors_ = false;
 };
 

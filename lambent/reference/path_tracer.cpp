@@ -84,7 +84,10 @@ Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
   if (width < 1 || height < 1 || width > kLargest || height > kLargest)
     return report::badUsage("a picture's width and height are from 1 to 32768 pixels");
   const Plan planned = plan(options.samples);
-  const Integrator integrator(scene, rays, environment, options);
+  if (options.air && camera.orthographicHalfHeight)
+    return report::badUsage("an orthographic camera sees no distance, and so no air");
+  Integrator integrator(scene, rays, environment, options);
+  integrator.lookFrom(camera);
   Picture out{image::Image(width, height), image::Image(width, height)};
   out.mean.alpha.resize(out.mean.pixels.size());
 

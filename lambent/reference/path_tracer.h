@@ -1,6 +1,7 @@
 // The truth: a path tracer over the same Scene and light, with its own error bars.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
+#include "lambent/shade/air.h"
 #include "lambent/trace/ray_scene.h"
 
 namespace lambent::reference {
@@ -21,7 +23,11 @@ struct PathTraceOptions {
   bool shadows = true;  ///< false: unshadowed direct light, no bounces; lobes see the whole sphere
   std::uint64_t seed = 0;   ///< two seeds give independent errors
   bool background = false;  ///< picture: the environment where nothing is in front of it
-  int threads = 0;          ///< 0: all. No effect on the result's bytes
+  /// picture: before what its perspective camera sees, and what mirrors show it; light on its way to
+  /// surfaces passes through none. Shafts of light by rays from each place that a ray passes towards
+  /// the middle of the environment's Sun (light::sunOf), if it has one.
+  std::optional<shade::Air> air;
+  int threads = 0;  ///< 0: all. No effect on the result's bytes
 };
 
 struct Picture {
@@ -39,7 +45,8 @@ struct Picture {
 /// The variance is measured between 16 independent batches of paths (between paths, below 32
 /// samples), so it is itself known within 37% (standard error) and (mean − truth)/√variance is
 /// distributed as Student's t with 15 degrees of freedom. A single sample has infinite variance.
-/// BadUsage for fewer samples than 1, negative bounces, or a size outside 1 … 32768.
+/// BadUsage for fewer samples than 1, negative bounces, a size outside 1 … 32768, or air before an
+/// orthographic camera.
 Result<Picture> picture(const scene::Scene& scene, const trace::RayScene& rays,
                         const light::Environment& environment, const scene::Camera& camera,
                         int width, int height, const PathTraceOptions& options,

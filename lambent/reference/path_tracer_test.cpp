@@ -6,14 +6,17 @@
 #include <functional>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 #include "lambent/math/statistics.h"
 #include "lambent/reference/test_statistics.h"
+#include "lambent/scene/camera.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
+#include "lambent/shade/test_air.h"
 
 namespace lambent::reference {
 namespace {
@@ -507,6 +510,89 @@ TEST(Picture, TellsItsProgressAndStops) {
                                [](const ProgressUpdate&) { return false; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(int(stopped.error().kind), int(ErrorKind::Cancelled));
+}
+
+/// A picture of a few pixels, from 20 m up.
+Picture seenOver(const World& world, const Environment& light, const PathTraceOptions& options) {
+  scene::Camera camera;
+  camera.verticalFov = 0.2f;
+  camera.worldFromCamera.topRightCorner<3, 1>() = Vec3(0, 20, 0);
+  auto picture = reference::picture(world.scene, world.rays, light, camera, 12, 12, options);
+  EXPECT_TRUE(picture) << picture.error().message;
+  return std::move(*picture);
+}
+
+Vec3 lookedAt(int x, int y) {
+  scene::Camera camera;
+  camera.verticalFov = 0.2f;
+  return scene::cameraRay(camera, 12, 12, float(x) + 0.5f, float(y) + 0.5f).direction;
+}
+
+TEST(AirBefore, LiesBeforeSurfacesAndTheGroundBehind) {
+  // A wall 6 km away covers the right half, and the left half is the environment.
+  scene::Scene walls;
+  scene::Mesh wall = scene::gridPlane(8000, 8000, 1, 1);
+  const Mat3 upright = Eigen::AngleAxisf(float(kPi) / 2, Vec3::UnitX()).toRotationMatrix();
+  for (Vec3& p : wall.positions) p = upright * p + Vec3(4000, 0, -6000);
+  for (Vec3& n : wall.normals) n = upright * n;
+  scene::addTo(walls, wall, diffuseMaterial(Rgb(0.8f, 0.5f, 0.3f)));
+  const World world(std::move(walls));
+  const Environment light = Environment::uniform(Rgb(10, 20, 30));
+  PathTraceOptions options;
+  options.background = true;
+  options.bounces = 0;
+  const Picture without = seenOver(world, light, options);
+  options.air = shade::test::clearAir();
+  const Picture with = seenOver(world, light, options);
+  for (int y = 0; y < 12; ++y)
+    for (const int x : {2, 9}) {
+      const Vec3 direction = lookedAt(x, y);
+      const Rgb before = without.mean.at(x, y);
+      const Rgb expected = x > 6 ? options.air->seen(direction, 6000 / -direction.z(), before)
+                                 : options.air->seenBehind(Vec3(0, 20, 0), direction, before);
+      // Air is not linear over a pixel, least so next to the horizon.
+      const bool horizon = x < 6 && y >= 5 && y <= 8;
+      EXPECT_LT((with.mean.at(x, y) - expected).abs().maxCoeff(),
+                (horizon ? 0.2f : 0.02f) * expected.maxCoeff())
+          << x << ' ' << y;
+      if (x > 6) EXPECT_GT((with.mean.at(x, y) - before).abs().maxCoeff(), 0.1f);
+    }
+  scene::Camera camera;
+  camera.orthographicHalfHeight = 5.0f;
+  EXPECT_FALSE(reference::picture(world.scene, world.rays, light, camera, 2, 2, options));
+}
+
+TEST(AirBefore, MirrorsShowWhatTheyWouldSeeThroughIt) {
+  // A mirror at 45°, 3 km away, that faces a lamp 5 km to its right.
+  scene::Scene things;
+  const auto turnedPlane = [](float side, const Vec3& axis, float radians, const Vec3& at) {
+    scene::Mesh plane = scene::gridPlane(side, side, 1, 1);
+    const Mat3 turn = Eigen::AngleAxisf(radians, axis).toRotationMatrix();
+    for (Vec3& p : plane.positions) p = turn * p + at;
+    for (Vec3& n : plane.normals) n = turn * n;
+    return plane;
+  };
+  const float quarter = float(kPi) / 2;
+  scene::Mesh mirror = turnedPlane(4000, Vec3::UnitX(), quarter, Vec3::Zero());
+  const Mat3 about = Eigen::AngleAxisf(quarter / 2, Vec3::UnitY()).toRotationMatrix();
+  for (Vec3& p : mirror.positions) p = about * p + Vec3(0, 20, -3000);
+  for (Vec3& n : mirror.normals) n = about * n;
+  scene::addTo(things, mirror, mirrorMaterial(Rgb::Constant(0.5f)));
+  scene::Material lamp = diffuseMaterial(Rgb::Zero());
+  lamp.emission = Rgb(3, 2, 1);
+  scene::addTo(things, turnedPlane(8000, Vec3::UnitZ(), quarter, Vec3(5000, 20, -3000)), lamp);
+  const World world(std::move(things));
+  PathTraceOptions options;
+  options.samples = 4;
+  options.air = shade::test::clearAir();
+  const Picture seen = seenOver(world, Environment::uniform(Rgb::Zero()), options);
+  for (const auto& [x, y] : {std::pair(6, 5), std::pair(5, 4)}) {
+    const Vec3 first = lookedAt(x, y), second(-first.z(), first.y(), -first.x());
+    const Rgb reflected = options.air->seen(second, 5000, lamp.emission);
+    const Rgb expected = options.air->seen(first, 3000, 0.5f * reflected);
+    EXPECT_LT((seen.mean.at(x, y) - expected).abs().maxCoeff(), 0.03f * expected.maxCoeff())
+        << seen.mean.at(x, y).transpose() << " / " << expected.transpose();
+  }
 }
 
 }  // namespace

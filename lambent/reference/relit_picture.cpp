@@ -11,11 +11,11 @@
 
 #include <map>
 
+#include "lambent/reference/shadowed_air.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/picture_frame.h"
 #include "lambent/shade/rtt_footprint.h"
-#include "lambent/sky/shafts.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/work/runner.h"
 
@@ -30,7 +30,7 @@ struct LitScene {
   const asset::Asset& asset;
   const trace::RayScene& rays;
   const light::Environment& environment;
-  const shade::Showing& showing;
+  const shade::PictureOptions& options;
   shade::SampleWidth width;
   std::vector<shade::LitMesh> meshes;                ///< of bare surfaces
   std::map<std::uint32_t, shade::LitPatch> patches;  ///< of meshes with meso-structure
@@ -59,7 +59,11 @@ struct LitScene {
       return patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(hit.distance));
     const Rgb base = shade::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
     const Vec3 reflected = shade::mirrored(toViewer, point.normal);
-    if (material.isMirror()) return material.mirror * base * environment.radiance(reflected);
+    if (material.isMirror()) {
+      const Rgb shown = environment.radiance(reflected);
+      return material.mirror * base *
+             (options.air ? options.air->seenBehind(point.position, reflected, shown) : shown);
+    }
     const auto* surface = std::get_if<Surface>(&asset.transfer.meshes[hit.mesh]);
     if (!surface) return Rgb::Zero();
 
@@ -72,36 +76,10 @@ struct LitScene {
     Rgb sum =
         (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) + lit.glossyAt(at, reflected) * base;
     if (!sun) return sum;
-    if (const auto direct = shade::kindWithoutBounces(asset.transfer.meshes[hit.mesh], showing))
+    if (const auto direct =
+            shade::kindWithoutBounces(asset.transfer.meshes[hit.mesh], options.showing))
       sum += sunlit(point, *direct, *sun);
     return sum;
-  }
-};
-
-/// What the shadows of things take from the air before what is seen.
-struct ShadowedAir {
-  const shade::Air& air;
-  const trace::RayScene& rays;
-  sky::AerialPerspective table;
-  sky::SamplingPlanes planes;
-
-  ShadowedAir(const shade::Air& of, const trace::RayScene& scene, const scene::Camera& camera,
-              const scene::Box& box)
-      : air(of), rays(scene), table(*of.table), planes(of.planes(camera, box)) {}
-
-  /// `distance`: nothing for the background.
-  Rgb missing(const scene::Ray& ray, std::optional<float> distance,
-              const light::SunPoint& sun) const {
-    sky::ShaftRay shaft;
-    shaft.direction = air.sunFromAsset * ray.direction.cast<double>();
-    shaft.length = distance ? double(*distance) * air.metresPerUnit
-                            : planes.last / std::max(shaft.direction.dot(planes.axis), 1e-6);
-    const Mat3d assetFromSun = air.sunFromAsset.transpose() / air.metresPerUnit;
-    const auto visible = [&](const Vec3d& place) {
-      return !rays.occluded(ray.origin + Vec3((assetFromSun * place).cast<float>()), sun.direction);
-    };
-    const Eigen::Array3d lit = sky::airBetween(table, shaft.direction, shaft.length).fromSun;
-    return (lit - sky::shaftsBySplitPlanes(table, shaft, visible, planes)).cast<float>();
   }
 };
 
@@ -118,7 +96,7 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
   LitScene lit{asset,
                *rays,
                environment,
-               options.showing,
+               options,
                shade::sampleWidth(camera, options.height, options.samples),
                {},
                {}};
@@ -137,7 +115,8 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
   if (options.sun) sun = light::pointsOf(options.sun->sun, options.samples);
   std::optional<ShadowedAir> shafts;
   if (options.air && options.air->shafts)
-    shafts.emplace(*options.air, *rays, camera, scene::bounds(asset.scene));
+    shafts.emplace(*options.air, *rays, camera, scene::bounds(asset.scene),
+                   ShadowedAir::By::Planes);
   image::Image image(width, height);
   image.alpha.resize(image.pixels.size());
 
@@ -153,14 +132,14 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
         const scene::Ray ray = scene::cameraRay(camera, width, height, x + p.x(), y + p.y());
         const std::optional<trace::Hit> hit = rays->closest(ray.origin, ray.direction);
         if (!hit) {
-          if (shafts && options.background) sum -= shafts->missing(ray, {}, sun[i]);
+          if (shafts && options.background) sum -= shafts->missing(ray, {}, sun[i].direction);
           continue;
         }
         ++covered;
         const Rgb radiance =
             lit.exitRadiance(*hit, -ray.direction, sun.empty() ? nullptr : &sun[i]);
         sum += options.air ? options.air->seen(ray.direction, hit->distance, radiance) : radiance;
-        if (shafts) sum -= shafts->missing(ray, hit->distance, sun[i]);
+        if (shafts) sum -= shafts->missing(ray, hit->distance, sun[i].direction);
       }
       image.at(x, y) = share * sum;
       image.alpha[std::size_t(y) * width + x] = float(covered) / float(positions.size());

@@ -16,6 +16,13 @@ namespace {
 constexpr GLuint kAirUnit = 5;  ///< of textures, as in air_table.glsl
 constexpr int kAirSources = 3;
 
+int widthOf(const sky::AirTableSize& size) {
+  return kAirSources * size.azimuths + 1;
+}
+int heightOf(const sky::AirTableSize& size) {
+  return size.distances * size.elevations;
+}
+
 /// As phase_function.glsl takes them.
 struct PhaseUniform {
   Eigen::Vector4d operator()(const media::Isotropic&) const { return {0, 0, 0, 0}; }
@@ -35,13 +42,12 @@ std::string airSource(bool shafts) {
   for (const char* name : {"phase_function.glsl", "aerial_perspective.glsl"})
     text += shaderSource(name);
   if (shafts) text += shaderSource("shafts.glsl");
-  return text.append(shaderSource("air_table.glsl"));
+  return text.append(shaderSource("air_table.glsl")).append(shaderSource("air_behind.glsl"));
 }
 
 Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
   const sky::AirTable& table = *air.table;
-  const sky::AirTableSize& size = table.size();
-  const int width = kAirSources * size.azimuths + 1, height = size.distances * size.elevations;
+  const int width = widthOf(table.size()), height = heightOf(table.size());
   if (width > largestTexture || height > largestTexture)
     return report::failed(fmt::format(
         "a table of the air of {}×{} texels, but this OpenGL takes {} a side. Make it smaller, or "
@@ -50,16 +56,7 @@ Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
   GlAir made(air);
   // Of four numbers: a texel is then fetched as one.
   made.table_ = makeTexture(GL_RGBA32F, width, height);
-  const std::size_t along = std::size_t(size.azimuths), row = std::size_t(width) * 4;
-  std::vector<float> texels(row * std::size_t(height));
-  for (std::size_t y = 0; y < std::size_t(height); ++y) {
-    float* to = texels.data() + y * row;
-    for (const auto source : {sky::AirTable::Air, sky::AirTable::Aerosol, sky::AirTable::Multiple})
-      for (std::size_t i = 0; i < along; ++i, to += 4)
-        std::copy_n(table.source(source).data() + (y * along + i) * 3, 3, to);
-    std::copy_n(table.extinction().data() + y * 3, 3, to);
-  }
-  glTextureSubImage2D(made.table_.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
+  made.upload();
   if (Status s = checkGl("uploading the air"); !s) return s.error();
   if (air.shafts) {
     const Program::Stage stages[] = {
@@ -74,7 +71,50 @@ Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
   return made;
 }
 
+void GlAir::upload() const {
+  const sky::AirTable& table = *air_.table;
+  const int width = widthOf(table.size()), height = heightOf(table.size());
+  const std::size_t along = std::size_t(table.size().azimuths), row = std::size_t(width) * 4;
+  std::vector<float> texels(row * std::size_t(height));
+  for (std::size_t y = 0; y < std::size_t(height); ++y) {
+    float* to = texels.data() + y * row;
+    for (const auto source : {sky::AirTable::Air, sky::AirTable::Aerosol, sky::AirTable::Multiple})
+      for (std::size_t i = 0; i < along; ++i, to += 4)
+        std::copy_n(table.source(source).data() + (y * along + i) * 3, 3, to);
+    std::copy_n(table.extinction().data() + y * 3, 3, to);
+  }
+  glTextureSubImage2D(table_.name(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
+}
+
+bool GlAir::takes(const shade::Air& air) const {
+  const sky::AirTableSize &mine = air_.table->size(), &other = air.table->size();
+  return widthOf(mine) == widthOf(other) && heightOf(mine) == heightOf(other) &&
+         air_.shafts.has_value() == air.shafts.has_value();
+}
+
+Status GlAir::set(const shade::Air& air) {
+  const bool same = air_.table == air.table;
+  air_ = air;
+  if (same) return Status::ok();
+  upload();
+  return checkGl("uploading the air");
+}
+
 void GlAir::bind(const Program& program, const GlView& view, const GlSunMap* sunMap) const {
+  bindTable(program);
+  if (!air_.shafts) return;
+  assert(view.shafts && sunMap);
+  const sky::SamplingPlanes& planes = *view.shafts;
+  program.set("shaftOrigin", 0.0f, 0.0f, 0.0f);  // places are counted from the eye
+  program.set("shaftEye", view.eye.x(), view.eye.y(), view.eye.z());
+  program.set("shaftAxis", float(planes.axis.x()), float(planes.axis.y()), float(planes.axis.z()));
+  program.set("shaftDepths", float(planes.first), float(planes.last));
+  program.set("shaftRate", float(planes.rate));
+  program.set("shaftPlanes", planes.count, planes.samples);
+  sunMap->bindForShafts(program);
+}
+
+void GlAir::bindTable(const Program& program) const {
   const sky::AirTable& table = *air_.table;
   const sky::AirTableAxes& axes = table.axes();
   program.set("airNodes", table.size().azimuths, table.size().elevations, table.size().distances);
@@ -87,17 +127,8 @@ void GlAir::bind(const Program& program, const GlView& view, const GlSunMap* sun
   program.set("aerosolPhase", phase[0], phase[1], phase[2], phase[3]);
   program.setMatrix("sunFromWorld", Mat3(air_.sunFromAsset.cast<float>()));
   program.set("metresPerUnit", float(air_.metresPerUnit));
+  program.set("airGround", air_.ground.x(), air_.ground.y(), air_.ground.z());
   glBindTextureUnit(kAirUnit, table_.name());
-  if (!air_.shafts) return;
-  assert(view.shafts && sunMap);
-  const sky::SamplingPlanes& planes = *view.shafts;
-  program.set("shaftOrigin", 0.0f, 0.0f, 0.0f);  // places are counted from the eye
-  program.set("shaftEye", view.eye.x(), view.eye.y(), view.eye.z());
-  program.set("shaftAxis", float(planes.axis.x()), float(planes.axis.y()), float(planes.axis.z()));
-  program.set("shaftDepths", float(planes.first), float(planes.last));
-  program.set("shaftRate", float(planes.rate));
-  program.set("shaftPlanes", planes.count, planes.samples);
-  sunMap->bindForShafts(program);
 }
 
 void GlAir::drawCurtain(const GlView& view, const GlSunMap* sunMap) const {

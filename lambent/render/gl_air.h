@@ -11,24 +11,33 @@
 namespace lambent::render {
 
 /// What a program that looks through the air includes: shaders/phase_function.glsl,
-/// aerial_perspective.glsl and opengl/air_table.glsl; with shafts of light shafts.glsl too.
+/// aerial_perspective.glsl, opengl/air_table.glsl and air_behind.glsl; with shafts of light shafts.glsl
+/// too.
 std::string airSource(bool shafts);
 
 class GlAir {
  public:
   /// Uploads the table: 492 KB of one of the default size.
   static Result<GlAir> make(const shade::Air& air, int largestTexture);
+  /// Whether set() can make another air of it: a table of as many nodes, with or without shafts as
+  /// this one.
+  bool takes(const shade::Air& air) const;
+  /// Uploads the table, if it is another.
+  Status set(const shade::Air& air);
   /// What programs include.
   std::string source() const { return airSource(air_.shafts.has_value()); }
   /// For the program that draws next, which includes source(). With shafts of light there must be
   /// view.shafts and, of view.sun, a map.
   void bind(const Program& program, const GlView& view, const GlSunMap* sunMap) const;
+  /// … which includes airSource(false).
+  void bindTable(const Program& program) const;
   /// With shafts: what they take from the background, where nothing is drawn yet. A vertex array must
   /// be bound.
   void drawCurtain(const GlView& view, const GlSunMap* sunMap) const;
 
  private:
   explicit GlAir(const shade::Air& air) : air_(air) {}
+  void upload() const;
 
   shade::Air air_;
   Texture table_;

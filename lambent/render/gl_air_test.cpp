@@ -7,9 +7,12 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "lambent/reference/relit_picture.h"
+#include "lambent/render/gl_context.h"
 #include "lambent/render/gl_picture.h"
+#include "lambent/render/live_renderer.h"
 #include "lambent/render/test_agreement.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/shade/test_air.h"
@@ -236,6 +239,77 @@ TEST(GlAir, ShaftsWantShadows) {
   const auto without = picture(asset, sky.project(5), sky, camera, options);
   ASSERT_FALSE(without);
   EXPECT_EQ(without.error().kind, ErrorKind::BadUsage);
+}
+
+/// Towers, a mirror and bumps, in units of a kilometre.
+asset::Asset town() {
+  asset::Asset asset;
+  shade::test::addDiffuse(asset, shade::test::floor(Vec3(0, 0, -1), 6.0f), {});
+  for (int k = 0; k < 3; ++k)
+    shade::test::addDiffuse(
+        asset, box(Vec3(1.5f, 0.9f, 0.5f - 1.3f * float(k)), Vec3(0.2f, 0.9f, 0.4f)), {});
+  shade::test::addMirror(asset, shade::test::sphere(Vec3(-0.8f, 0.5f, 0), 0.5f, 20),
+                         Rgb(0.9f, 0.8f, 0.7f));
+  shade::test::addPatched(asset, scene::translated(scene::uvSphere(0.4f, 24, 12), Vec3(0, 0.5f, 1)),
+                          shade::test::bumpyRtt(16, 12, 4, 5), {});
+  return asset;
+}
+
+// One renderer, while air, shafts, Sun, background and the object change: every frame as the CPU's.
+TEST(GlAir, LiveFramesAreTheCpus) {
+  const asset::Asset asset = town();
+  const light::Environment sky = dayWithSun();
+  auto context = GlContext::create();
+  ASSERT_TRUE(context) << context.error().message;
+  auto renderer = LiveRenderer::make(asset, {});
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  PictureOptions options = small(2);
+  ASSERT_TRUE(renderer->resize(options.width, options.height));
+  ASSERT_TRUE(renderer->setEnvironment(sky));
+  enum Air { None, Plain, Shafts };
+  const struct {
+    Air air;
+    bool sun, background;
+    double metres;
+  } steps[] = {{None, true, true, 1000},   {Plain, true, true, 1000},  {Plain, true, false, 3000},
+               {Shafts, true, true, 1000}, {Shafts, false, true, 500}, {Shafts, true, false, 500},
+               {None, true, true, 1},      {Plain, true, true, 100}};
+  for (std::size_t i = 0; i < std::size(steps); ++i) {
+    LiveView view;
+    view.camera = shade::test::cameraAt(Vec3(-0.3f, 0.3f, 4), Vec3(0, 0.9f, -1));
+    view.background = options.background = steps[i].background;
+    const Mat3 turn =
+        Eigen::AngleAxisf(0.3f * float(i), Vec3(0.1f, 1, 0).normalized()).toRotationMatrix();
+    view.worldFromAsset.topLeftCorner<3, 3>() = turn;
+    view.worldFromAsset.topRightCorner<3, 1>() = Vec3(0.1f, 0.02f * float(i), 0);
+    const Mat3 assetFromWorld = turn.transpose();
+    const light::Environment turned = sky.rotated(assetFromWorld);
+    options.sun.reset(), options.air.reset();
+    if (steps[i].sun) options.sun = shade::sharpSunOf(turned, std::vector<double>(5, 1.0));
+    if (steps[i].air != None) {
+      options.air = shade::test::clearAir(steps[i].metres);
+      options.air->sunFromAsset = turn.cast<double>();
+      options.air->ground = -(assetFromWorld * view.worldFromAsset.topRightCorner<3, 1>());
+      if (steps[i].air == Shafts) options.air->shafts.emplace();
+    }
+    ASSERT_TRUE(renderer->setSun(options.sun));
+    ASSERT_TRUE(renderer->setAir(options.air));
+    if (!options.sun && options.air) options.air->shafts.reset();
+    const sh::RgbCoefficients light = turned.project(5);
+    renderer->setLight(light);
+    renderer->begin();
+    for (const Vec2& place : scene::subpixelPositions(options.samples))
+      ASSERT_TRUE(renderer->add(view, place, options.samples));
+    auto gl = renderer->picture();
+    ASSERT_TRUE(gl) << gl.error().message;
+    scene::Camera camera = view.camera;
+    camera.worldFromCamera = Mat4(view.worldFromAsset.inverse()) * camera.worldFromCamera;
+    auto cpu = reference::relitPicture(asset, light, turned, camera, options);
+    ASSERT_TRUE(cpu) << cpu.error().message;
+    for (Image* image : {&*cpu, &*gl})
+      for (Rgb& pixel : image->pixels) pixel /= kDay;
+    test::expectSame("live-air-" + std::to_string(i), *cpu, *gl, {.mean = 0.25, .interior = 8});
+  }
 }
 
 TEST(GlAir, OrthographicCamerasAreRefused) {

@@ -234,6 +234,22 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
   return Status::ok();
 }
 
+Status GlPatches::setAir(std::shared_ptr<const GlAir> air) {
+  const auto sourceOf = [](const auto& of) { return of ? of->source() : std::string(); };
+  const bool same = sourceOf(options_.air) == sourceOf(air);
+  options_.air.swap(air);
+  if (same) return Status::ok();
+  std::map<ProgramKey, Program> before;
+  before.swap(programs_);
+  for (const auto& [key, program] : before)
+    if (Status s = std::apply([this](auto... of) { return addProgram(of...); }, key); !s) {
+      programs_.swap(before);
+      options_.air.swap(air);
+      return s;
+    }
+  return Status::ok();
+}
+
 Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
   const scene::Mesh& mesh = asset_->scene.meshes[index];
   const BiScale& biScale = biScaleOf(index);

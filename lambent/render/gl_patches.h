@@ -32,6 +32,8 @@ class GlPatches {
 
   /// Uploads a mesh with meso-structure and all that it needs.
   Status add(std::uint32_t mesh, TransferOnGpu& transfer);
+  /// As GlSurfaces::setAir.
+  Status setAir(std::shared_ptr<const GlAir> air);
   /// Filter and dependence on the view, which need no other transfer.
   Status choose(const shade::Showing& showing);
 

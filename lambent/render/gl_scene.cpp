@@ -47,11 +47,11 @@ Result<GlScene> GlScene::make(const asset::Asset& asset, const GlSceneOptions& o
 
 Result<GlScene> GlScene::makeLit(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                  const GlSceneOptions& options) {
-  std::shared_ptr<const GlAir> air;
+  std::shared_ptr<GlAir> air;
   if (options.air) {
     Result<GlAir> made = GlAir::make(*options.air, options.largestTexture);
     if (!made) return made.error();
-    air = std::make_shared<const GlAir>(std::move(*made));
+    air = std::make_shared<GlAir>(std::move(*made));
   }
   GlScene scene(asset, options, TransferOnGpu::Residence::Stream, std::move(air));
   scene.transfer_.setLight(light);
@@ -124,6 +124,25 @@ Status GlScene::setSunShare(const std::optional<sh::RgbCoefficients>& share) {
   return Status::ok();
 }
 
+Status GlScene::setAir(const std::optional<shade::Air>& air) {
+  if (!air && !air_) return Status::ok();
+  if (air && air_ && air_->takes(*air)) return air_->set(*air);
+  std::shared_ptr<GlAir> next;
+  if (air) {
+    Result<GlAir> made = GlAir::make(*air, options_.largestTexture);
+    if (!made) return made.error();
+    next = std::make_shared<GlAir>(std::move(*made));
+  }
+  if (Status s = surfaces_.setAir(next); !s) return s;
+  if (Status s = patches_.setAir(next); !s) {
+    // These programs were there before.
+    (void)surfaces_.setAir(air_);
+    return s;
+  }
+  air_ = std::move(next);
+  return Status::ok();
+}
+
 Status GlScene::mapSun(const GlView& view) {
   if (!view.sun || view.unlit) return Status::ok();
   if (!sunMap_) {
@@ -155,7 +174,7 @@ void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
   const GlSunMap* sunMap = sunMap_ ? &*sunMap_ : nullptr;
   surfaces_.draw(view, environment, colors_, sunMap, options_.showing, noAttributes_.name());
   patches_.draw(view, sunMap, noAttributes_.name());
-  if (air_ && options_.background) air_->drawCurtain(view, sunMap);
+  if (air_ && view.background) air_->drawCurtain(view, sunMap);
 }
 
 void GlScene::drawUnlit(const GlView& view) const {

@@ -26,8 +26,7 @@ struct GlSceneOptions {
   int largestTexture = 0;        ///< side, in texels
   shade::Showing showing;
   std::optional<sh::RgbCoefficients> sunShare;  ///< of makeLit's light, of a sharp Sun
-  std::optional<shade::Air> air;                ///< before all that makeLit() made
-  bool background = false;  ///< there will be one: shafts of light stand before it too
+  std::optional<shade::Air> air;                ///< before all of makeLit()'s
 };
 
 class GlScene {
@@ -47,6 +46,11 @@ class GlScene {
   /// What a sharp Sun is of the light that is set (none: there is no such). The first one uploads what
   /// it needs; if that fails, all stays as it was. Then relight() is due.
   Status setSunShare(const std::optional<sh::RgbCoefficients>& share);
+  /// The air before all of it (none: there is none). Makes programs where there was none, or none with
+  /// shafts, before; if that fails, all stays as it was.
+  Status setAir(const std::optional<shade::Air>& air);
+  /// For what else is drawn; null without.
+  const GlAir* air() const { return air_.get(); }
   /// As LiveRenderer::setLightField.
   Status setLightField(const capture::Blending& blending, GLuint lights, int bands);
   /// M · L of every receiver: GL commands alone, one dispatch for each chunk of transfer.
@@ -62,7 +66,7 @@ class GlScene {
 
  private:
   GlScene(const asset::Asset& asset, const GlSceneOptions& options,
-          TransferOnGpu::Residence residence, std::shared_ptr<const GlAir> air)
+          TransferOnGpu::Residence residence, std::shared_ptr<GlAir> air)
       : asset_(&asset),
         options_(options),
         transfer_(options.largestBlock, residence),
@@ -88,7 +92,7 @@ class GlScene {
   GlSurfaces surfaces_;
   GlPatches patches_;
   scene::Box bounds_;
-  std::shared_ptr<const GlAir> air_;
+  std::shared_ptr<GlAir> air_;
   std::optional<GlSunMap> sunMap_;  ///< made for the first sharp Sun
   bool sharpSun_ = false;
   Program unlit_;

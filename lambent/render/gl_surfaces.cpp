@@ -135,6 +135,22 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
   return Status::ok();
 }
 
+Status GlSurfaces::setAir(std::shared_ptr<const GlAir> air) {
+  const auto sourceOf = [](const auto& of) { return of ? of->source() : std::string(); };
+  const bool same = sourceOf(air_) == sourceOf(air);
+  air_.swap(air);
+  if (same) return Status::ok();
+  std::map<std::pair<SurfaceKind, int>, Program> before;
+  before.swap(programs_);
+  for (const auto& [key, program] : before)
+    if (Status s = addProgram(key.first, key.second); !s) {
+      programs_.swap(before);
+      air_.swap(air);
+      return s;
+    }
+  return Status::ok();
+}
+
 Status GlSurfaces::addTexels(std::uint32_t index, const transfer::AtTexels& grid,
                              const Response& response, std::size_t perReceiver,
                              const shade::Showing& showing, TransferOnGpu& transfer,

@@ -40,6 +40,9 @@ class GlSurfaces {
   };
   /// The light of all pieces under other transfer, to be given to setLight.
   Result<std::vector<Lit>> lightUnder(const shade::Showing& showing, TransferOnGpu& transfer) const;
+  /// Other air; null for none. Makes programs where it is there, or its shafts are, and was not before;
+  /// if that fails, all stays as it was.
+  Status setAir(std::shared_ptr<const GlAir> air);
   /// Whether what is lit from now on is lit by a sharp Sun, whose own light the caller draws.
   void setSharpSun(bool sharp) { sharpSun_ = sharp; }
   void setLight(std::vector<Lit> light);

@@ -10,11 +10,16 @@
 namespace lambent::render {
 namespace {
 
-Result<Program> accumulateProgram(bool background) {
+enum class Behind { Nothing, Environment, EnvironmentThroughAir };
+
+Result<Program> accumulateProgram(Behind behind) {
+  const bool air = behind == Behind::EnvironmentThroughAir;
   std::vector<std::string> parts = {
-      fmt::format("#define LAMBENT_BACKGROUND {:d}", background),
+      fmt::format("#define LAMBENT_BACKGROUND {:d}\n#define LAMBENT_AIR {:d}\n",
+                  behind != Behind::Nothing, air),
   };
-  if (background) parts.push_back(environmentSource());
+  if (air) parts.push_back(airSource(false));
+  if (behind != Behind::Nothing) parts.push_back(environmentSource());
   parts.emplace_back(shaderSource("accumulate.comp.glsl"));
   const Program::Stage stage{GL_COMPUTE_SHADER, "accumulate.comp.glsl", std::move(parts)};
   return Program::make({&stage, 1});
@@ -67,10 +72,12 @@ Result<GlTarget> GlTarget::make(int width, int height) {
   GLuint vertexArray = 0;
   glCreateVertexArrays(1, &vertexArray);
   target.noAttributes_ = VertexArray(vertexArray);
-  for (const bool background : {false, true}) {
-    Result<Program> program = accumulateProgram(background);
+  for (const auto& [behind, made] :
+       {std::pair(Behind::Nothing, &target.accumulate_),
+        std::pair(Behind::Environment, &target.accumulateWithBackground_)}) {
+    Result<Program> program = accumulateProgram(behind);
     if (!program) return program.error();
-    (background ? target.accumulateWithBackground_ : target.accumulate_) = std::move(*program);
+    *made = std::move(*program);
   }
   Result<Program> program = showProgram();
   if (!program) return program.error();
@@ -89,20 +96,34 @@ void GlTarget::beginFrame() const {
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &far);
 }
 
+Status GlTarget::lookThroughAir() {
+  if (accumulateThroughAir_) return Status::ok();
+  Result<Program> program = accumulateProgram(Behind::EnvironmentThroughAir);
+  if (!program) return program.error();
+  accumulateThroughAir_.emplace(std::move(*program));
+  return Status::ok();
+}
+
 void GlTarget::clearSum() const {
   const float zero[4] = {};
   glClearTexImage(sum_.name(), 0, GL_RGBA, GL_FLOAT, zero);
   glClearTexImage(behind_.name(), 0, GL_RGBA, GL_FLOAT, zero);
 }
 
-void GlTarget::addToSum(const GlView& view, const GlEnvironment* background) const {
+void GlTarget::addToSum(const GlView& view, const Background* background) {
   glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  const Program& program = background ? accumulateWithBackground_ : accumulate_;
+  const bool air = background && background->air;
+  cutLast_ = air && view.shafts;
+  const Program& program = air          ? *accumulateThroughAir_
+                           : background ? accumulateWithBackground_
+                                        : accumulate_;
   glBindImageTexture(0, color_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
   glBindImageTexture(1, sum_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
   if (background) {
     glBindImageTexture(2, behind_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-    background->bind(program, view.environmentFromWorld);
+    background->environment.bind(program, view.environmentFromWorld);
+    if (air) background->air->bindTable(program);
+    if (air) program.set("from", view.eye.x(), view.eye.y(), view.eye.z());
     program.set("corner", view.corner.x(), view.corner.y(), view.corner.z());
     program.set("right", view.right.x(), view.right.y(), view.right.z());
     program.set("up", view.up.x(), view.up.y(), view.up.z());
@@ -128,12 +149,16 @@ Result<image::Image> GlTarget::mean(int samples) const {
 Result<image::Image> GlTarget::meanOverBackground(int samples) const {
   Result<image::Image> image = mean(samples);
   if (!image) return image;
-  for (Rgb& pixel : image->pixels) pixel = pixel.max(0.0f);
+  const auto cut = [&] {
+    for (Rgb& pixel : image->pixels) pixel = pixel.max(0.0f);
+  };
+  if (!cutLast_) cut();
   readBack(behind_, width_, height_, [&](int x, int y, const float* sum) {
     if (sum[3] > 0.0f)
       image->at(x, y) +=
           (1.0f - image->alpha[std::size_t(y) * width_ + x]) / sum[3] * Rgb(sum[0], sum[1], sum[2]);
   });
+  cut();
   image->alpha.clear();
   if (Status s = checkGl("reading the picture back"); !s) return s.error();
   return image;
@@ -145,6 +170,7 @@ void GlTarget::show(int samples, GLuint framebuffer, float exposureEv, tone::Cur
   glDisable(GL_DEPTH_TEST);
   show_.set("share", 1.0f / float(std::max(samples, 1)));
   show_.set("exposure", std::exp2(exposureEv));
+  show_.set("cutLast", int(cutLast_));
   show_.set("filmicCurve", int(curve == tone::Curve::Filmic));
   glBindTextureUnit(0, sum_.name());
   glBindTextureUnit(1, behind_.name());

@@ -1,7 +1,10 @@
 // What frames are drawn into, the sum of them, and the picture that the sum makes.
 #pragma once
 
+#include <optional>
+
 #include "lambent/image/image.h"
+#include "lambent/render/gl_air.h"
 #include "lambent/render/gl_environment.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
@@ -22,9 +25,16 @@ class GlTarget {
   void beginFrame() const;
   /// The sum: nothing.
   void clearSum() const;
-  /// Adds the frame to the sum and, if there is one, what the environment shows where the frame
-  /// leaves pixels uncovered.
-  void addToSum(const GlView& view, const GlEnvironment* background) const;
+  /// Makes what addToSum() needs with air.
+  Status lookThroughAir();
+  /// What the environment shows, and the air before its ground, if there is any.
+  struct Background {
+    const GlEnvironment& environment;
+    const GlAir* air = nullptr;
+  };
+  /// Adds the frame to the sum and, if there is one, the background where the frame leaves pixels
+  /// uncovered.
+  void addToSum(const GlView& view, const Background* background);
   /// The mean of `samples` frames: radiance and coverage. Where backgrounds were added, they are
   /// left out.
   Result<image::Image> mean(int samples) const;
@@ -38,6 +48,8 @@ class GlTarget {
   Framebuffer framebuffer_;
   VertexArray noAttributes_;
   Program accumulate_, accumulateWithBackground_, show_;
+  std::optional<Program> accumulateThroughAir_;
+  bool cutLast_ = false;  ///< the sum holds what shadows in the air take from the background
   int width_ = 0, height_ = 0;
 };
 

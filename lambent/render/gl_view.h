@@ -20,9 +20,10 @@ struct GlView {
   Mat3 environmentFromWorld = Mat3::Identity();
   std::optional<light::SunPoint> sun;  ///< whose shadows are sharp, if that is wished
   std::optional<sky::SamplingPlanes>
-      shafts;             ///< of that Sun's light in the air, if they are wished
-  bool unlit = false;     ///< base colours alone
-  bool mirrored = false;  ///< the camera's matrix turns right into left
+      shafts;               ///< of that Sun's light in the air, if they are wished
+  bool unlit = false;       ///< base colours alone
+  bool background = false;  ///< there will be one: shafts of light stand before it too
+  bool mirrored = false;    ///< the camera's matrix turns right into left
   /// The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up;
   /// not unit.
   Vec3 corner, right, up;

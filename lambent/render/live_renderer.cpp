@@ -27,8 +27,10 @@ shade::PictureOptions pictureOptions(const shade::Showing& showing) {
   return result;
 }
 
-Status checkView(const LiveView& view) {
-  if (Status s = shade::checkCamera(view.camera); !s) return s;
+Status checkView(const LiveView& view, const std::optional<shade::Air>& air) {
+  shade::PictureOptions options;
+  options.air = air;
+  if (Status s = shade::checkCamera(view.camera, options); !s) return s;
   const auto isRotation = [](const Mat3& m) {
     return m.allFinite() && (m.transpose() * m - Mat3::Identity()).norm() < 1e-3f &&
            m.determinant() > 0.0f;
@@ -68,6 +70,8 @@ struct LiveRenderer::Impl {
   bool environmentStale = true;
 
   std::optional<light::Sun> sun;
+  std::optional<shade::Air> air;
+  bool airStale = false;                 ///< the scene has another, or shafts without a Sun
   bool hasLight = false, stale = false;  ///< stale: M · L is due
   int samples = 0;                       ///< of the picture, the one that is pending included
   bool background = false;               ///< of the last frame
@@ -82,9 +86,20 @@ struct LiveRenderer::Impl {
     return Status::ok();
   }
 
+  Status breathe() {
+    if (airStale) {
+      std::optional<shade::Air> seen = air;
+      if (seen && !sun) seen->shafts.reset();
+      if (Status s = scene.setAir(seen); !s) return s;
+      airStale = false;
+    }
+    return scene.air() ? target->lookThroughAir() : Status::ok();
+  }
+
   void fold() {
     if (!pending) return;
-    target->addToSum(*pending, background ? &environmentOnGpu : nullptr);
+    const GlTarget::Background behind{environmentOnGpu, pending->unlit ? nullptr : scene.air()};
+    target->addToSum(*pending, background ? &behind : nullptr);
     pending.reset();
   }
 };
@@ -140,8 +155,21 @@ Status LiveRenderer::setSun(const std::optional<shade::SharpSun>& sun) {
   const GlStateGuard guard;
   const std::optional<sh::RgbCoefficients> share = sun ? std::optional(sun->share) : std::nullopt;
   if (Status s = impl_->scene.setSunShare(share); !s) return s;
+  if (impl_->air && impl_->sun.has_value() != sun.has_value()) impl_->airStale = true;
   impl_->sun = sun ? std::optional(sun->sun) : std::nullopt;
   impl_->stale = impl_->hasLight;
+  return Status::ok();
+}
+
+Status LiveRenderer::setAir(const std::optional<shade::Air>& air) {
+  shade::PictureOptions options;
+  options.air = air;
+  if (air) options.sun.emplace();  // setSun() says whether there is one
+  if (Status s = shade::checkOptions(options); !s) return s;
+  const GlStateGuard guard;
+  impl_->fold();  // as it was seen
+  impl_->air = air;
+  impl_->airStale = true;
   return Status::ok();
 }
 
@@ -216,9 +244,10 @@ void LiveRenderer::begin() {
 
 Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
   if (!impl_->target) return report::badUsage("a frame without a size: call resize() first");
-  if (Status s = checkView(view); !s) return s;
+  if (Status s = checkView(view, impl_->air); !s) return s;
   const GlStateGuard guard;
   impl_->fold();
+  if (Status s = impl_->breathe(); !s) return s;
   if (Status s = impl_->showEnvironment(view); !s) return s;
   if (impl_->stale && !view.unlit) {
     if (Status s = impl_->scene.relight(); !s) return s;
@@ -239,6 +268,9 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
   seen.environmentFromWorld =
       view.worldFromEnvironment.transpose() * view.worldFromAsset.topLeftCorner<3, 3>();
   seen.unlit = view.unlit;
+  seen.background = view.background;
+  if (impl_->sun && impl_->air && impl_->air->shafts && !view.unlit)
+    seen.shafts = impl_->air->planes(camera, impl_->bounds);
   if (impl_->sun)
     seen.sun = light::pointsOf(*impl_->sun, samples)[std::size_t(impl_->samples % samples)];
   if (Status s = impl_->scene.mapSun(seen); !s) return s;

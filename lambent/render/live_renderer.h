@@ -11,6 +11,7 @@
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/shade/air.h"
 #include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
@@ -57,6 +58,11 @@ class LiveRenderer {
   /// asset's frame. The first one uploads what it needs; others cost next to nothing: it can move in
   /// every frame. A map of what it leaves dark is drawn with each. A light field knows none.
   Status setSun(const std::optional<shade::SharpSun>& sun);
+  /// The air between a perspective camera and all that the asset shows (none: there is none), in the
+  /// asset's frame; what others draw is not behind it. The first one, and the first one with or
+  /// without shafts of light, makes programs; another table of as many nodes is uploaded, and the
+  /// rest costs next to nothing. Without a Sun (setSun) there are no shafts.
+  Status setAir(const std::optional<shade::Air>& air);
   /// Light that varies over the asset: `samples` sets of coefficients, [sample][coefficient][3]
   /// floats in a GL buffer that the caller (or capture on the GPU) fills, blended at each vertex by
   /// its weights. Sets setLight's light aside; `blending` is uploaded here, once, and the buffer is

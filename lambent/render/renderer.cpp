@@ -32,6 +32,7 @@ struct Renderer::Impl {
     GlView view =
         viewThrough(camera, options.width, options.height, bounds, place, options.samples);
     if (sun) view.sun = *sun;
+    view.background = options.background;
     if (options.air && options.air->shafts) view.shafts = options.air->planes(camera, bounds);
     if (Status s = scene.mapSun(view); !s) return s.error();
     target.beginFrame();
@@ -75,7 +76,6 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   sceneOptions.showing = options.showing;
   if (options.sun) sceneOptions.sunShare = options.sun->share;
   sceneOptions.air = options.air;
-  sceneOptions.background = options.background;
   Result<GlScene> scene = GlScene::makeLit(asset, light, sceneOptions);
   if (!scene) return scene.error();
   GlEnvironment inMirrors;

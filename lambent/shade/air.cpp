@@ -8,18 +8,30 @@
 
 namespace lambent::shade {
 
-Rgb Air::seen(const Vec3& direction, float distance, const Rgb& radiance) const {
-  const sky::AirBetween between =
-      table->at(sunFromAsset * direction.cast<double>(), double(distance) * metresPerUnit);
-  return between.seen(radiance.cast<double>()).cast<float>();
+namespace {
+
+sky::AirBetween airOf(const Air& air, const Vec3d& inSunFrame, double metres) {
+  return air.exact ? air.exact->at(inSunFrame, metres) : air.table->at(inSunFrame, metres);
 }
 
-Rgb Air::seenBehind(const Vec3& direction, const Rgb& radiance) const {
+}  // namespace
+
+sky::AirBetween Air::between(const Vec3& direction, float distance) const {
+  return airOf(*this, sunFromAsset * direction.cast<double>(), double(distance) * metresPerUnit);
+}
+
+Rgb Air::seen(const Vec3& direction, float distance, const Rgb& radiance) const {
+  return between(direction, distance).seen(radiance.cast<double>()).cast<float>();
+}
+
+Rgb Air::seenBehind(const Vec3& from, const Vec3& direction, const Rgb& radiance) const {
   const Vec3d inSunFrame = sunFromAsset * direction.cast<double>();
   const double elevation = std::asin(std::clamp(inSunFrame.y(), -1.0, 1.0));
   const sky::AirTableAxes& axes = table->axes();
   if (axes.isAbove(elevation)) return radiance;
-  return table->at(inSunFrame, axes.toGround(elevation))
+  const double inScene = metresPerUnit * sunFromAsset.row(1).dot((from - ground).cast<double>());
+  const double height = std::max({axes.altitude, inScene, kLeastEyeHeight});
+  return airOf(*this, inSunFrame, axes.toGround(elevation, height))
       .seen(radiance.cast<double>())
       .cast<float>();
 }

@@ -45,19 +45,53 @@ TEST(Air, FarAwayIsTheSky) {
     }
 }
 
-TEST(Air, LiesBeforeTheGroundOfABackground) {
+TEST(Air, LiesBeforeTheGroundOfAnEnvironment) {
   const Air air = test::clearAir();
   const Rgb ground(2.0f, 1.0f, 0.5f);
+  const Vec3 from = Vec3::Zero();
   for (const double elevation : {0.0, 0.3, 1.5})
-    EXPECT_TRUE((air.seenBehind(lookAlong(elevation, 1.0), ground) == ground).all());
+    EXPECT_TRUE((air.seenBehind(from, lookAlong(elevation, 1.0), ground) == ground).all());
   // 50 m straight below, and 1 km away.
   const Vec3 down = lookAlong(-1.57, 1.0);
-  EXPECT_LT((air.seenBehind(down, ground) - air.seen(down, 50.0f, ground)).abs().maxCoeff(), 1e-4f);
+  EXPECT_LT((air.seenBehind(from, down, ground) - air.seen(down, 50.0f, ground)).abs().maxCoeff(),
+            1e-4f);
   const Vec3 low = lookAlong(-0.05, 1.0);
-  EXPECT_LT((air.seenBehind(low, ground) - air.seen(low, 1002.0f, ground)).abs().maxCoeff(), 1e-2f);
+  EXPECT_LT((air.seenBehind(from, low, ground) - air.seen(low, 1002.0f, ground)).abs().maxCoeff(),
+            1e-2f);
   // 25 km away, before the horizon (0.23° below eye level).
   const Vec3 last = lookAlong(-0.00398, 1.0);
-  EXPECT_GT((air.seenBehind(last, ground) - ground).abs().maxCoeff(), 0.2f);
+  EXPECT_GT((air.seenBehind(from, last, ground) - ground).abs().maxCoeff(), 0.2f);
+}
+
+TEST(Air, TheGroundIsAsFarBelowAsTheEyeStandsInTheScene) {
+  // Units of 2 m; up in the asset's frame is +x, and heights count from x = 7.
+  Air air = test::clearAir(2);
+  const Mat3d assetFromSun = Eigen::AngleAxisd(-kPi / 2, Vec3d::UnitZ()).toRotationMatrix();
+  air.sunFromAsset = assetFromSun.transpose();
+  air.ground = Vec3(7, 100, -20);
+  const Rgb ground(2.0f, 1.0f, 0.5f);
+  const Vec3 down = (assetFromSun * lookAlong(-1.57, 1.0).cast<double>()).cast<float>();
+  const auto seen = [&](float x) { return air.seenBehind(Vec3(x, -3, 5), down, ground); };
+  // The viewer of the table is at 50 m, and no eye is lower.
+  for (const float x : {-500.0f, 7.0f, 31.0f})
+    EXPECT_LT((seen(x) - air.seen(down, 25.0f, ground)).abs().maxCoeff(), 1e-4f) << x;
+  EXPECT_LT((seen(1007.0f) - air.seen(down, 1000.0f, ground)).abs().maxCoeff(), 1e-4f);
+  EXPECT_GT((seen(1007.0f) - seen(7.0f)).abs().maxCoeff(), 0.02f);
+}
+
+TEST(Air, TheFarGroundFadesTowardsTheHorizonFromAnyHeight) {
+  Air air = test::clearAir();
+  const Rgb ground = Rgb::Zero();
+  // From high above, down to the horizon of the table's viewer, which is farther than its own ground.
+  for (const float height : {0.0f, 300.0f, 3000.0f}) {
+    float before = 0;
+    for (double elevation = -0.6; elevation < -0.004; elevation += 0.004) {
+      const Rgb seen = air.seenBehind(Vec3(0, height, 0), lookAlong(elevation, 1.5), ground);
+      EXPECT_GE(seen[2], 0.995f * before) << height << ' ' << elevation;
+      before = seen[2];
+    }
+    EXPECT_GT(before, 0.5f) << height;
+  }
 }
 
 TEST(Air, KnowsUnitsAndFrames) {

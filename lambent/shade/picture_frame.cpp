@@ -92,10 +92,11 @@ void finishPicture(image::Image& image, const light::Environment& environment,
       if (!(uncovered > 0.0f)) continue;
       Rgb sum = Rgb::Zero();
       for (const Vec2& p : positions) {
-        const Vec3 direction =
-            scene::cameraRay(camera, image.width, image.height, x + p.x(), y + p.y()).direction;
-        const Rgb radiance = environment.radiance(direction);
-        sum += options.air ? options.air->seenBehind(direction, radiance) : radiance;
+        const scene::Ray ray =
+            scene::cameraRay(camera, image.width, image.height, x + p.x(), y + p.y());
+        const Rgb radiance = environment.radiance(ray.direction);
+        sum +=
+            options.air ? options.air->seenBehind(ray.origin, ray.direction, radiance) : radiance;
       }
       image.pixels[at] += uncovered / float(positions.size()) * sum;
     }

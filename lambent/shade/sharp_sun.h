@@ -34,8 +34,9 @@ std::optional<SharpSun> sharpSunOf(const light::Environment& environment,
 
 /// The kind of D of a bare surface with a diffuse part: the shadowed one under what is interreflected,
 /// otherwise what is shown. None where interreflected transfer is held alone, and for all other meshes:
-/// they show the Sun as the harmonics have it. (Without its bounces a picture would be further from the
-/// truth than with its soft shadow: docs/reproduction.md.)
+/// they show the Sun as the harmonics have it. (Without the Sun's bounces a picture would be about as far
+/// from the truth as with its soft shadow, somewhat nearer in seven of eight in docs/reproduction.md,
+/// but too dark wherever light bounces.)
 std::optional<transfer::Kind> kindWithoutBounces(const transfer::EncodedMesh& mesh,
                                                  const Showing& showing);
 

@@ -41,11 +41,11 @@ double AirTableAxes::elevationOf(bool above, double place) const {
   return above ? horizon + x * (kPi / 2 - horizon) : horizon - x * (kPi / 2 + horizon);
 }
 
-double AirTableAxes::toGround(double elevation) const {
-  const double b = (radius + altitude) * std::sin(elevation);
-  const double c = altitude * (2 * radius + altitude);
+double AirTableAxes::toGround(double elevation, double above) const {
+  const double b = (radius + above) * std::sin(elevation);
+  const double c = above * (2 * radius + above);
   const double root = std::sqrt(std::max(b * b - c, 0.0));
-  return c / std::max(root - b, 1e-3);
+  return c / std::max({root - b, std::sqrt(c), 1e-3});
 }
 
 double AirTableAxes::reach(bool above, double elevation) const {

@@ -37,7 +37,10 @@ struct AirTableAxes {
   double placeOfElevation(double elevation) const;  ///< within its half: 0 is the horizon
   double elevationOf(bool above, double place) const;
   /// Distance of a ray below the horizon to the ground, m.
-  double toGround(double elevation) const;
+  double toGround(double elevation) const { return toGround(elevation, altitude); }
+  /// The same of a ray from another place, `above` the ground, m; beyond that one's own horizon, the
+  /// distance of the horizon.
+  double toGround(double elevation, double above) const;
   /// Distance to the end of a ray, m.
   double reach(bool above, double elevation) const;
 };

@@ -53,8 +53,8 @@ void Resolution::lookUpAt(double sunZenith) {
   sunTo = sunZenith + 14 * kPi / 180;
 }
 
-Result<Scattering> Scattering::solve(Medium medium, const Resolution& resolution,
-                                     const Progress& progress) {
+std::shared_ptr<Scattering::Impl> Scattering::Impl::empty(Medium medium,
+                                                          const Resolution& resolution) {
   auto impl = std::make_shared<Impl>();
   impl->medium = std::move(medium);
   impl->resolution = resolution;
@@ -89,8 +89,18 @@ Result<Scattering> Scattering::solve(Medium medium, const Resolution& resolution
     }
     impl->blocks.push_back(std::move(block));
   }
+  return impl;
+}
+
+Result<Scattering> Scattering::solve(Medium medium, const Resolution& resolution,
+                                     const Progress& progress) {
+  std::shared_ptr<Impl> impl = Impl::empty(std::move(medium), resolution);
   if (Status added = impl->addOrders(progress); !added) return added.error();
   return Scattering(std::move(impl));
+}
+
+const Resolution& Scattering::resolution() const {
+  return impl_->resolution;
 }
 
 const Medium& Scattering::medium() const {

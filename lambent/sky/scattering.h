@@ -6,13 +6,17 @@
 // zenith angle there, while density, shadow and extinction, which do not, are left to the rays.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
 #include "lambent/sky/air_path.h"
+#include "lambent/sky/atmosphere.h"
 #include "lambent/sky/march.h"
 #include "lambent/sky/medium.h"
 #include "lambent/sky/sun_lengths.h"
@@ -35,6 +39,8 @@ struct Resolution {
   /// Zenith angles of the Sun, rad, that are looked up: a ray sees places up to 8° on, and light has
   /// come from farther.
   double sunFrom = 0, sunTo = 4;
+
+  bool operator==(const Resolution&) const = default;
 
   static Resolution fast() { return {}; }
   /// For rays that begin where the Sun has this zenith angle alone: light comes from afar, and what a
@@ -80,6 +86,15 @@ class Scattering {
                                   const Progress& progress = {});
 
   const Medium& medium() const;
+  const Resolution& resolution() const;
+
+  /// As bytes that begin with scatteringKey(), and back: nothing if they are of another length or
+  /// another key. The atmosphere is the one that the medium is of.
+  std::vector<std::byte> bytes(const Atmosphere& atmosphere) const;
+  static std::optional<Scattering> fromBytes(std::span<const std::byte> bytes,
+                                             const Atmosphere& atmosphere,
+                                             std::span<const double> wavelengths,
+                                             const Resolution& resolution);
   /// Along a ray to the ground, the top of the air, or `end` (m).
   AirLight along(const RayInAir& ray, double end) const;
   AirLight along(const RayInAir& ray) const { return along(ray, kEndless); }
@@ -103,5 +118,9 @@ class Scattering {
   explicit Scattering(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   std::shared_ptr<const Impl> impl_;
 };
+
+/// All that a solution is of, and the version of how it is solved.
+std::string scatteringKey(const Atmosphere& atmosphere, std::span<const double> wavelengths,
+                          const Resolution& resolution);
 
 }  // namespace lambent::sky

@@ -65,6 +65,17 @@ struct Scattering::Impl {
   std::vector<Block> blocks;
   int orders = 1;
 
+  /// Of the right size everywhere, without any light yet.
+  static std::shared_ptr<Impl> empty(Medium medium, const Resolution& resolution);
+  /// All that addOrders() finds out, but for their number.
+  template <class Self, class Each>
+  static void forEachStored(Self& self, Each each) {
+    for (auto& block : self.blocks)
+      for (auto* part :
+           {&block.held.logScale, &block.held.moments, &block.held.aerosol, &block.logGround})
+        each(*part);
+  }
+
   enum class Shadow {
     Sharp,  ///< of a point: paths are split at its edge
     Soft,   ///< of the Sun's disc, for paths that are not

@@ -20,43 +20,72 @@ std::uint64_t hashOf(std::span<const std::byte> bytes) {
   return hash;
 }
 
-std::filesystem::path fileOf(const std::filesystem::path& folder, const Atmosphere& atmosphere,
-                             double altitude) {
-  const std::string key = tableKey(atmosphere, altitude);
-  return folder /
-         fmt::format("sky-{:016x}.table", hashOf(std::as_bytes(std::span(key.data(), key.size()))));
+std::filesystem::path fileOf(const std::filesystem::path& folder, std::string_view kind,
+                             const std::string& key) {
+  return folder / fmt::format("{}-{:016x}.table", kind,
+                              hashOf(std::as_bytes(std::span(key.data(), key.size()))));
 }
+
+/// The bytes of a file without their hash; nothing of a file that cannot be trusted.
+std::optional<std::vector<std::byte>> readWholeFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size > kMostBytes) return std::nullopt;
+  Result<std::vector<std::byte>> bytes = file::readWhole(path);
+  if (!bytes || bytes->size() < sizeof(std::uint64_t)) return std::nullopt;
+  std::uint64_t hash = 0;
+  const std::size_t body = bytes->size() - sizeof hash;
+  std::memcpy(&hash, bytes->data() + body, sizeof hash);
+  bytes->resize(body);
+  if (hash != hashOf(*bytes)) return std::nullopt;
+  return std::move(*bytes);
+}
+
+Status writeWholeFile(const std::filesystem::path& path, std::vector<std::byte> bytes) {
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (error)
+    return report::failed(fmt::format("{}: {}", path.parent_path().string(), error.message()));
+  const std::uint64_t hash = hashOf(bytes);
+  const auto* tail = reinterpret_cast<const std::byte*>(&hash);
+  bytes.insert(bytes.end(), tail, tail + sizeof hash);
+  return file::writeAtomically(path, bytes);
+}
+
+constexpr std::string_view kOfSkies = "sky", kOfAir = "air";
 
 }  // namespace
 
 std::optional<SkyTable> readTable(const std::filesystem::path& folder, const Atmosphere& atmosphere,
                                   double altitude) {
   if (folder.empty()) return std::nullopt;
-  const std::filesystem::path path = fileOf(folder, atmosphere, altitude);
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || size > kMostBytes) return std::nullopt;
-  const Result<std::vector<std::byte>> bytes = file::readWhole(path);
-  if (!bytes || bytes->size() < sizeof(std::uint64_t)) return std::nullopt;
-  const std::span<const std::byte> body =
-      std::span(*bytes).first(bytes->size() - sizeof(std::uint64_t));
-  std::uint64_t hash = 0;
-  std::memcpy(&hash, body.data() + body.size(), sizeof hash);
-  if (hash != hashOf(body)) return std::nullopt;
-  return SkyTable::fromBytes(body, atmosphere, altitude);
+  const auto bytes = readWholeFile(fileOf(folder, kOfSkies, tableKey(atmosphere, altitude)));
+  return bytes ? SkyTable::fromBytes(*bytes, atmosphere, altitude) : std::nullopt;
 }
 
 Status keepTable(const std::filesystem::path& folder, const Atmosphere& atmosphere,
                  const SkyTable& table) {
   if (folder.empty()) return Status::ok();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return report::failed(fmt::format("{}: {}", folder.string(), error.message()));
-  std::vector<std::byte> bytes = table.bytes();
-  const std::uint64_t hash = hashOf(bytes);
-  const auto* tail = reinterpret_cast<const std::byte*>(&hash);
-  bytes.insert(bytes.end(), tail, tail + sizeof hash);
-  return file::writeAtomically(fileOf(folder, atmosphere, table.altitude()), bytes);
+  return writeWholeFile(fileOf(folder, kOfSkies, tableKey(atmosphere, table.altitude())),
+                        table.bytes());
+}
+
+std::optional<Scattering> readScattering(const std::filesystem::path& folder,
+                                         const Atmosphere& atmosphere,
+                                         std::span<const double> wavelengths,
+                                         const Resolution& resolution) {
+  if (folder.empty()) return std::nullopt;
+  const auto bytes =
+      readWholeFile(fileOf(folder, kOfAir, scatteringKey(atmosphere, wavelengths, resolution)));
+  return bytes ? Scattering::fromBytes(*bytes, atmosphere, wavelengths, resolution) : std::nullopt;
+}
+
+Status keepScattering(const std::filesystem::path& folder, const Atmosphere& atmosphere,
+                      const Scattering& scattering) {
+  if (folder.empty()) return Status::ok();
+  const std::string key =
+      scatteringKey(atmosphere, scattering.medium().wavelengths, scattering.resolution());
+  return writeWholeFile(fileOf(folder, kOfAir, key), scattering.bytes(atmosphere));
 }
 
 }  // namespace lambent::sky

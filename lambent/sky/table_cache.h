@@ -1,8 +1,9 @@
-// Tables of skies that stay on disk between runs.
+// Tables of skies and of the light in their air, which stay on disk between runs.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "lambent/sky/sky_table.h"
 
@@ -15,5 +16,13 @@ std::optional<SkyTable> readTable(const std::filesystem::path& folder, const Atm
 /// Makes the folder if it must. Ok if the folder is "".
 Status keepTable(const std::filesystem::path& folder, const Atmosphere& atmosphere,
                  const SkyTable& table);
+
+/// The same of what was solved for the wavelengths (nm) of an atmosphere.
+std::optional<Scattering> readScattering(const std::filesystem::path& folder,
+                                         const Atmosphere& atmosphere,
+                                         std::span<const double> wavelengths,
+                                         const Resolution& resolution);
+Status keepScattering(const std::filesystem::path& folder, const Atmosphere& atmosphere,
+                      const Scattering& scattering);
 
 }  // namespace lambent::sky

@@ -27,13 +27,13 @@ Result<WithFindings<sky::ResolvedSky>> resolvedTerm(const Term& term) {
   if (!request) return ofTerm(term, request.error());
   auto resolved = sky::resolve(*request);
   if (!resolved) return ofTerm(term, resolved.error());
+  resolved->value.options.cache = sky::cacheFolder();
   return resolved;
 }
 
 Result<Light> skyLight(const Term& term, const SourceOptions& options) {
   auto resolved = resolvedTerm(term);
   if (!resolved) return resolved.error();
-  resolved->value.options.cache = sky::cacheFolder();
   auto made = sky::makeSky(resolved->value.options, options.progress);
   if (!made) return ofTerm(term, made.error());
   Light light{sky::environmentOf(made->value, resolved->value.worldFromSun),

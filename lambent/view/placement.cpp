@@ -107,6 +107,21 @@ light::Environment assetEnvironment(const ViewState& state, const light::Environ
   return sum;
 }
 
+std::optional<shade::Air> assetAir(const ViewState& state,
+                                   std::shared_ptr<const sky::AirTable> table,
+                                   const Mat3d& environmentFromSun) {
+  if (!state.air) return std::nullopt;
+  const Mat3d assetFromWorld = matrixOf(state.objectRotation).transpose();
+  shade::Air air;
+  air.table = std::move(table);
+  air.sunFromAsset =
+      (assetFromWorld * matrixOf(state.environmentRotation) * environmentFromSun).transpose();
+  air.metresPerUnit = state.air->metresPerUnit;
+  air.ground = -(assetFromWorld * state.objectTranslation.cast<double>()).cast<float>();
+  if (state.air->shafts) air.shafts.emplace();
+  return air;
+}
+
 shade::Showing showingOf(const ViewState& state) {
   shade::Showing showing = shade::Showing::of(state.transfer);
   if (!state.macro) showing.mesoStructure = transfer::Kind::Unshadowed;

@@ -6,6 +6,9 @@
 // in the world). So what draws an asset that stands still draws one that moves.
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "lambent/light/environment.h"
 #include "lambent/shade/picture_options.h"
 #include "lambent/view/view_state.h"
@@ -38,6 +41,12 @@ scene::Camera assetCamera(const ViewState& state, const scene::Camera& worldCame
 /// Environment and discs, turned into the asset's frame: what mirrors and the background show, and
 /// what a path tracer takes as its light.
 light::Environment assetEnvironment(const ViewState& state, const light::Environment& environment);
+
+/// The state's air, of this table, in the asset's frame; nothing if it has none. `environmentFromSun`
+/// turns the Sun's frame as the environment stands before its own turn.
+std::optional<shade::Air> assetAir(const ViewState& state,
+                                   std::shared_ptr<const sky::AirTable> table,
+                                   const Mat3d& environmentFromSun);
 
 /// What a state says about how the asset is shown.
 shade::Showing showingOf(const ViewState& state);

@@ -92,6 +92,26 @@ TEST(Placement, EnvironmentAndDiscsTurnIntoTheAssetsFrame) {
   }
 }
 
+TEST(Placement, TheAirTurnsIntoTheAssetsFrame) {
+  ViewState state = moved();
+  const Mat3d environmentFromSun =
+      Eigen::AngleAxisd(0.4, Vec3d(0.2, 1, -0.3).normalized()).toRotationMatrix();
+  EXPECT_FALSE(assetAir(state, nullptr, environmentFromSun));
+  state.air = AirShown{30, true};
+  const auto air = assetAir(state, nullptr, environmentFromSun);
+  ASSERT_TRUE(air);
+  EXPECT_EQ(air->metresPerUnit, 30);
+  EXPECT_TRUE(air->shafts);
+  // The origin of heights, and the zenith of the sky, in the world.
+  const Mat4 world = worldFromAsset(state);
+  const Vec3 origin = world.topLeftCorner<3, 3>() * air->ground + world.topRightCorner<3, 1>();
+  EXPECT_LT(origin.norm(), 1e-5f);
+  const Mat3 turn = world.topLeftCorner<3, 3>();
+  const Vec3 zenith = turn * air->sunFromAsset.row(1).transpose().cast<float>();
+  const Vec3 expected = worldFromEnvironment(state) * environmentFromSun.col(1).cast<float>();
+  EXPECT_TRUE(zenith.isApprox(expected, 1e-5f));
+}
+
 TEST(Placement, AStateSaysWhatAPictureIs) {
   ViewState state;
   state.transfer = transfer::Kind::Shadowed;

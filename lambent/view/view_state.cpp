@@ -51,14 +51,18 @@ bool operator==(const Disc& a, const Disc& b) {
          (a.radiance == b.radiance).all();
 }
 
+bool operator==(const AirShown& a, const AirShown& b) {
+  return a.metresPerUnit == b.metresPerUnit && a.shafts == b.shafts;
+}
+
 bool operator==(const ViewState& a, const ViewState& b) {
   return a.camera == b.camera && a.objectRotation == b.objectRotation &&
          a.objectTranslation == b.objectTranslation && a.environment == b.environment &&
          a.environmentRotation == b.environmentRotation && a.discs == b.discs &&
          a.window == b.window && a.transfer == b.transfer && a.sunShadow == b.sunShadow &&
-         a.macro == b.macro && a.viewDependent == b.viewDependent && a.lobe == b.lobe &&
-         a.exposure == b.exposure && a.tone == b.tone && a.background == b.background &&
-         a.samples == b.samples;
+         a.air == b.air && a.macro == b.macro && a.viewDependent == b.viewDependent &&
+         a.lobe == b.lobe && a.exposure == b.exposure && a.tone == b.tone &&
+         a.background == b.background && a.samples == b.samples;
 }
 
 std::string toJson(const ViewState& state) {
@@ -81,6 +85,9 @@ std::string toJson(const ViewState& state) {
   add("window", quoted(state.window));
   add("transfer", quoted(std::string(shade::choiceName(state.transfer))));
   add("sunShadow", state.sunShadow == shade::SunShadow::Sharp ? "\"sharp\"" : "\"soft\"");
+  add("air", state.air ? fmt::format("{{\"metresPerUnit\": {}, \"shafts\": {}}}",
+                                     state.air->metresPerUnit, state.air->shafts)
+                       : "null");
   add("macro", flag(state.macro));
   add("viewDependent", flag(state.viewDependent));
   add("lobe", numberOrNull(state.lobe));

@@ -12,6 +12,7 @@
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/camera.h"
+#include "lambent/shade/air.h"
 #include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
@@ -35,6 +36,12 @@ struct Disc {
   Rgb radiance = Rgb::Ones();
 };
 
+/// The air of the environment's sky, before what is seen (see shade/air.h).
+struct AirShown {
+  double metresPerUnit = 1;  ///< of the world; from shade::kLeastMetresPerUnit to kMost…
+  bool shafts = false;       ///< of light, under a Sun whose shadows are sharp
+};
+
 struct ViewState {
   std::optional<LookAt> camera;  ///< none: the file's first camera, or scene::frameAutomatically
   /// Where the object is: unit quaternion x, y, z, w, and metres.
@@ -48,10 +55,11 @@ struct ViewState {
   std::optional<transfer::Kind> transfer;  ///< none: the most that is held
   /// Of the light's Sun, if it has one (light::sunOf): on diffuse surfaces.
   shade::SunShadow sunShadow = shade::SunShadow::Sharp;
-  bool macro = true;           ///< off: meso-structure takes the light as nothing hid it
-  bool viewDependent = true;   ///< of meso-structure
-  std::optional<double> lobe;  ///< exponent of glossy lobes instead of the materials'
-  double exposure = 0;         ///< EV
+  std::optional<AirShown> air;  ///< none: nothing lies between camera and things
+  bool macro = true;            ///< off: meso-structure takes the light as nothing hid it
+  bool viewDependent = true;    ///< of meso-structure
+  std::optional<double> lobe;   ///< exponent of glossy lobes instead of the materials'
+  double exposure = 0;          ///< EV
   tone::Curve tone = tone::Curve::Filmic;
   bool background = true;
   int samples = 16;  ///< per pixel, once nothing moves; 1 … 4096
@@ -59,6 +67,7 @@ struct ViewState {
 
 bool operator==(const LookAt& a, const LookAt& b);
 bool operator==(const Disc& a, const Disc& b);
+bool operator==(const AirShown& a, const AirShown& b);
 bool operator==(const ViewState& a, const ViewState& b);
 
 /// JSON:
@@ -69,7 +78,8 @@ bool operator==(const ViewState& a, const ViewState& b);
 ///  "environment": {"source": "studio.exr", "rotation": [x,y,z,w]},
 ///  "discs": [{"azimuth": 30, "elevation": 45, "diameter": 20, "radiance": [r,g,b]}],
 ///  "window": "none", "transfer": "best" | "unshadowed" | "shadowed" | "interreflected",
-///  "sunShadow": "sharp" | "soft", "macro": true, "viewDependent": true, "lobe": null | 16, "exposure": 0,
+///  "sunShadow": "sharp" | "soft", "air": null | {"metresPerUnit": 1, "shafts": false},
+///  "macro": true, "viewDependent": true, "lobe": null | 16, "exposure": 0,
 ///  "tone": "filmic" | "linear", "background": true, "samples": 16}
 /// A member that is missing has its default; one that is unknown is passed over; one of the wrong
 /// kind or out of range is BadInput that names it. Rotations are made unit. `name` stands in

@@ -94,11 +94,11 @@ class Reader {
       into[std::size_t(i)] = std::decay_t<decltype(into[0])>(given);
     }
   }
-  void flag(const Json& parent, const char* key, bool& into) {
+  void flag(const Json& parent, const char* key, const std::string& member, bool& into) {
     const Json* value = find(parent, key);
     if (!value) return;
     if (!value->is_boolean())
-      return complain(key, fmt::format("is {}, not true or false", shown(*value)));
+      return complain(member, fmt::format("is {}, not true or false", shown(*value)));
     into = value->get<bool>();
   }
   void text(const Json& parent, const char* key, const std::string& member, std::string& into) {
@@ -146,6 +146,18 @@ void readCamera(Reader& reader, const Json& json, std::optional<LookAt>& into) {
   else if (!(sight.cross(up).norm() > 1e-6 * sight.norm() * up.norm()))
     reader.complain("camera.up", "is zero or lies along the line of sight: choose another");
   into = look;
+}
+
+void readAir(Reader& reader, const Json& json, std::optional<AirShown>& into) {
+  const Json* found = reader.find(json, "air");
+  if (!found || found->is_null()) return;
+  const Json* air = reader.object(json, "air");
+  if (!air) return;
+  AirShown shown;
+  reader.number(*air, "metresPerUnit", "air.metresPerUnit", shade::kLeastMetresPerUnit,
+                shade::kMostMetresPerUnit, shown.metresPerUnit);
+  reader.flag(*air, "shafts", "air.shafts", shown.shafts);
+  into = shown;
 }
 
 void readDiscs(Reader& reader, const Json& json, std::vector<Disc>& into) {
@@ -216,8 +228,9 @@ Result<ViewState> parseViewState(std::string_view text, const std::string& name)
   if (sunShadow != "sharp" && sunShadow != "soft")
     reader.complain("sunShadow",
                     fmt::format("is \"{}\"; it must be \"sharp\" or \"soft\"", sunShadow));
-  reader.flag(json, "macro", state.macro);
-  reader.flag(json, "viewDependent", state.viewDependent);
+  readAir(reader, json, state.air);
+  reader.flag(json, "macro", "macro", state.macro);
+  reader.flag(json, "viewDependent", "viewDependent", state.viewDependent);
   reader.optional(json, "lobe", "lobe", 0.0, 1e5, state.lobe);
   reader.number(json, "exposure", "exposure", -60, 60, state.exposure);
   std::string tone = "filmic";
@@ -225,7 +238,7 @@ Result<ViewState> parseViewState(std::string_view text, const std::string& name)
   if (tone == "linear") state.tone = tone::Curve::Linear;
   if (tone != "linear" && tone != "filmic")
     reader.complain("tone", fmt::format("is \"{}\"; it must be \"filmic\" or \"linear\"", tone));
-  reader.flag(json, "background", state.background);
+  reader.flag(json, "background", "background", state.background);
   double samples = state.samples;
   reader.number(json, "samples", "samples", 1, 4096, samples);
   if (samples != std::floor(samples)) reader.complain("samples", "must be a whole number");

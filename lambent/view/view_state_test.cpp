@@ -20,6 +20,7 @@ ViewState everything() {
   state.window = "lanczos:6.5";
   state.transfer = transfer::Kind::Shadowed;
   state.sunShadow = shade::SunShadow::Soft;
+  state.air = AirShown{0.3, true};
   state.macro = state.viewDependent = state.background = false;
   state.lobe = 12.5;
   state.exposure = -1.75;
@@ -54,6 +55,9 @@ TEST(ViewState, IsComparedMemberByMember) {
   EXPECT_TRUE(differs([](ViewState& s) { s.window = "minimal"; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.transfer.reset(); }));
   EXPECT_TRUE(differs([](ViewState& s) { s.sunShadow = shade::SunShadow::Sharp; }));
+  EXPECT_TRUE(differs([](ViewState& s) { s.air.reset(); }));
+  EXPECT_TRUE(differs([](ViewState& s) { s.air->metresPerUnit = 2; }));
+  EXPECT_TRUE(differs([](ViewState& s) { s.air->shafts = false; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.macro = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.viewDependent = true; }));
   EXPECT_TRUE(differs([](ViewState& s) { s.lobe.reset(); }));
@@ -72,12 +76,13 @@ TEST(ViewState, NumbersHaveAsFewDigitsAsTheyNeed) {
 TEST(ViewState, WhatIsMissingHasItsDefaultAndWhatIsUnknownIsPassedOver) {
   const auto state = parseViewState(
       R"({"lambent": "view", "later": [1], "exposure": 2, "camera": null,
-          "discs": [{"elevation": 10}]})",
+          "discs": [{"elevation": 10}], "air": {}})",
       "state.json");
   ASSERT_TRUE(state) << state.error().message;
   ViewState expected;
   expected.exposure = 2;
   expected.discs = {Disc{0, 10, 20, Rgb::Ones()}};
+  expected.air = AirShown();
   EXPECT_TRUE(*state == expected) << toJson(*state);
 }
 
@@ -118,6 +123,10 @@ TEST(ViewState, NamesTheMemberThatIsWrong) {
       {"window", R"("window": "hann:-2")"},
       {"transfer", R"("transfer": "glossy")"},
       {"sunShadow", R"("sunShadow": "hard")"},
+      {"air", R"("air": true)"},
+      {"air.metresPerUnit", R"("air": {"metresPerUnit": 0})"},
+      {"air.metresPerUnit", R"("air": {"metresPerUnit": null})"},
+      {"air.shafts", R"("air": {"shafts": 16})"},
       {"macro", R"("macro": 1)"},
       {"viewDependent", R"("viewDependent": "on")"},
       {"lobe", R"("lobe": -1)"},

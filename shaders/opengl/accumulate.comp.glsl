@@ -2,7 +2,7 @@
 // environment shows there.
 //
 // Before this text stand: #define LAMBENT_BACKGROUND 0 or 1 and, if 1, environment.glsl and
-// environment_maps.glsl.
+// environment_maps.glsl; LAMBENT_AIR 1, with what air_table.glsl says, or 0.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f, binding = 0) readonly uniform image2D one;
@@ -12,6 +12,17 @@ layout(rgba32f, binding = 1) uniform image2D sum;
 layout(rgba32f, binding = 2) uniform image2D behind;  // radiance, and how many sub-samples it is of
 // The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up.
 uniform vec3 corner, right, up;
+#if LAMBENT_AIR
+uniform vec3 from;  // the camera
+#endif
+
+vec3 radianceBehind(vec2 at) {
+  vec3 direction = corner + at.x * right + at.y * up, shown = environmentRadiance(direction);
+#if LAMBENT_AIR
+  shown = seenBehindAir(from, normalize(direction), shown);
+#endif
+  return shown;
+}
 #endif
 
 void main() {
@@ -21,8 +32,6 @@ void main() {
   imageStore(sum, at, imageLoad(sum, at) + here);
 #if LAMBENT_BACKGROUND
   if (here.a < 1.0)
-    imageStore(behind, at,
-               imageLoad(behind, at) +
-                   vec4(environmentRadiance(corner + float(at.x) * right + float(at.y) * up), 1.0));
+    imageStore(behind, at, imageLoad(behind, at) + vec4(radianceBehind(vec2(at)), 1.0));
 #endif
 }

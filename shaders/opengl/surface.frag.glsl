@@ -119,7 +119,13 @@ vec3 litRadiance() {
 
 #elif LAMBENT_KIND == 2
 
-vec3 litRadiance() { return mirror * base() * environmentRadiance(reflectedView()); }
+vec3 litRadiance() {
+  vec3 direction = reflectedView(), shown = environmentRadiance(direction);
+#if LAMBENT_AIR
+  shown = seenBehindAir(position, direction, shown);
+#endif
+  return mirror * base() * shown;
+}
 
 #else
 

@@ -1,5 +1,6 @@
 """Baking, lighting and shading: what comes out is what was asked for."""
 
+import json
 import math
 import os
 import subprocess
@@ -326,6 +327,32 @@ class Pictures(ToolTest):
         self.refused(*picture, "-o", "a.png", "--shafts", "--sun-shadow", "soft", code=USAGE,
                      says=["shafts", "sharp"])
 
+    def test_the_air_of_a_view(self):
+        self.bake("ball.obj", "ball.glb", "--albedo", "0.8,0.6,0.4", "--keep-shadowed")
+        sky = "sky:sun-elevation=30,model=preetham"
+        picture = ("render", "ball.glb", *self.SIZE, "--backend", "cpu", "-o")
+
+        def view(**members):
+            (self.folder / "view.json").write_text(json.dumps(
+                {"lambent": "view", "environment": {"source": sky}, **members}))
+            return ("--view", "view.json")
+
+        air = {"metresPerUnit": 1000, "shafts": True}
+        flags = ("--metres-per-unit", 1000, "--shafts")
+        self.run_tool(*picture, "told.exr", "--light", sky, "--background", "--air", *flags)
+        told = self.run_json(*picture, "kept.exr", *view(air=air))
+        self.assertEqual((told["metres_per_unit"], told["shafts"]), (1000, True))
+        self.run_tool(*picture, "over.exr", *view(air={}), *flags)
+        self.run_tool(*picture, "both.exr", *view(), "--air", *flags)
+        for other in ("kept.exr", "over.exr", "both.exr"):
+            self.run_tool("compare", "told.exr", other, "--fail-above", "relative_rmse=1e-5")
+        soft = self.run_json(*picture, "soft.exr", *view(air=air, sunShadow="soft"))
+        self.assertFalse(soft["shafts"])
+        self.assertIn("no-shafts", [each["code"] for each in soft["findings"]])
+        self.refused(*picture, "a.exr", *view(air={}), "--light", "uniform", code=USAGE,
+                     says=["--air", "no sky"])
+        self.refused(*picture, "a.exr", *view(), "--shafts", code=USAGE, says=["--shafts", "--air"])
+
     def test_render_against_the_path_traced_truth(self):
         self.bake("ball.obj", "ball.glb", "--directions", 4096, "--encoding", "float32")
         self.run_tool("render", "ball.glb", *self.LIGHT, *self.SIZE, "-o", "ours.exr",
@@ -336,6 +363,24 @@ class Pictures(ToolTest):
                                 "beyond_noise=0.02", "--fail-above", "bias=0.01")
         self.assertGreater(summary["noise"], 0.0)
         self.assertLessEqual(summary["beyond_noise"], summary["relative_rmse"])
+
+    def test_the_truth_through_air(self):
+        self.bake("ball.obj", "ball.glb", "--directions", 4096, "--encoding", "float32",
+                  "--keep-shadowed")
+        sky = ("--light", "sky:sun-elevation=30,model=preetham")
+        for extra in ((), ("--shafts",)):
+            air = ("--background", "--air", "--metres-per-unit", 1000, *extra)
+            self.run_tool("render", "ball.glb", *sky, *self.SIZE, "-o", "ours.exr", "--backend",
+                          "cpu", *air)
+            told = self.run_json("reference", "ball.glb", *sky, *self.SIZE, "-o", "truth.exr",
+                                 "--spp", 64, *air)
+            self.assertEqual((told["metres_per_unit"], told["shafts"]), (1000, bool(extra)))
+            self.run_tool("compare", "truth.exr", "ours.exr", "--fail-above", "beyond_noise=0.05")
+        self.run_tool("reference", "ball.glb", *sky, *self.SIZE, "-o", "clear.exr", "--spp", 16,
+                      "--background")
+        self.assertGreater(self.run_json("compare", "truth.exr", "clear.exr")["relative_rmse"], 0.1)
+        self.refused("reference", "ball.glb", *sky, "--air", "-o", "a.csv", code=USAGE,
+                     says=["--air", "viewer"])
 
     def test_the_truth_at_every_vertex(self):
         self.bake("ball.obj", "ball.glb", "--directions", 4096, "--encoding", "float32")

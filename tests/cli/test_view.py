@@ -117,6 +117,57 @@ class View(ToolTest):
         self.assertEqual(read_png(self.path("plain.png"))[:2], (200, 150))
         self.assertGreater(mean_difference(self.path("still.png"), self.path("moved.png")), 5.0)
 
+    def test_the_air_of_a_sky(self):
+        self.bake("ball.obj", "ball.glb", "--keep-shadowed")
+        self.bake("ball.obj", "mirror.glb", "--material", "mirror", "--bands", 3)
+        sky = "sky:sun-elevation=30,sun-azimuth=90,model=preetham"
+        self.script(f"""
+            set panel off
+            set samples 4
+            set expose-sky off
+            set exposure -6
+            environment {sky}
+            screenshot clear.png
+            set air on
+            set metres-per-unit 2000
+            save-state air.json
+            screenshot air.png
+            turn environment y 75
+            turn object 2,-1,1 50
+            move 0.1 0.4 0.05
+            orbit 40 15
+            set shafts on
+            save-state shafts.json
+            screenshot shafts.png
+            set sun-shadow soft
+            save-state soft.json
+            screenshot soft.png
+            set sun-shadow sharp
+            set air off
+            set air on
+            sky sun-elevation 8
+            set metres-per-unit 500
+            set shafts on
+            save-state evening.json
+            screenshot evening.png
+            load mirror.glb
+            set metres-per-unit 3000
+            save-state mirror.json
+            screenshot mirror.png
+            environment uniform
+            screenshot none.png
+            """, "ball.glb")
+        for name in ("air", "shafts", "soft", "evening"):
+            self.assert_as_rendered("ball.glb", name + ".png", name + ".json")
+        self.assert_as_rendered("mirror.glb", "mirror.png", "mirror.json")
+        self.assertGreater(mean_difference(self.path("clear.png"), self.path("air.png")), 5.0)
+        state = json.loads(self.path("shafts.json").read_text())
+        self.assertEqual(state["air"], {"metresPerUnit": 2000, "shafts": True})
+        for line, says in (("set shafts on", "set air on"), ("set air 3", "neither on nor off"),
+                           ("set air on\nset metres-per-unit 0", "metres")):
+            told = self.script(line + "\n", "ball.glb", code=BAD_INPUT)
+            self.assertIn(says, told.stderr)
+
     def test_glossy_and_mirror_turn_with_everything(self):
         self.sky()
         tour = """

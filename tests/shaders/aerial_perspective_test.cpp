@@ -132,6 +132,28 @@ TEST(PhaseFunctionText, IsTheLibrarys) {
   }
 }
 
+TEST(AerialPerspectiveText, KnowsTheGround) {
+  for (const double altitude : {0.0, 1800.0}) {
+    const sky::AirTable table(solved(), *sky::preset("clear"), {altitude, 0.3}, {16, 5, 9, 2});
+    show(table);
+    const vec3 color(0.5f, 1, 2);
+    for (const double height : {0.0, 1.6, 40.0, 1800.0, 9000.0})
+      for (double elevation = -1.5; elevation < 0.2; elevation += 0.013) {
+        const Vec3d d(std::cos(elevation) * 0.6, std::sin(elevation), std::cos(elevation) * 0.8);
+        const vec3 seen = air::throughAirBehind(fromDouble(d), float(height), color);
+        const sky::AirTableAxes& axes = table.axes();
+        sky::AirBetween expected;
+        if (!axes.isAbove(elevation)) {
+          const double above = std::max({altitude, height, 1.6});
+          const double metres = axes.toGround(elevation, above);
+          EXPECT_NEAR(double(air::airToGround(float(d.y()), float(above))), metres, 2e-3 * metres);
+          expected = table.at(d, metres);
+        }
+        EXPECT_LT(apart(seen, expected.seen({0.5, 1, 2})), 2e-3) << height << ' ' << elevation;
+      }
+  }
+}
+
 TEST(AerialPerspectiveText, IsTheTables) {
   for (const double altitude : {0.0, 1800.0, 15e3}) {
     const sky::AirTable table(solved(), *sky::preset("clear"), {altitude, 0.3}, {16, 5, 9, 2});

@@ -29,6 +29,14 @@ export interface DiscState {
   radiance: Triple;
 }
 
+/** The air of the environment's sky, before what is seen. */
+export interface AirShown {
+  /** Metres in one unit of the world. */
+  metresPerUnit: number;
+  /** Of light, under a Sun whose shadows are sharp. */
+  shafts: boolean;
+}
+
 export interface ViewState {
   /** null: the file's first camera, or one that frames everything. */
   camera: LookAt | null;
@@ -38,6 +46,10 @@ export interface ViewState {
   /** Without a width: as many bands as the light has. */
   window: WindowName | "hann" | "lanczos";
   transfer: TransferChoice;
+  /** Of the light's Sun, if it has one: on diffuse surfaces. */
+  sunShadow: "sharp" | "soft";
+  /** null: nothing lies between camera and things. */
+  air: AirShown | null;
   macro: boolean;
   viewDependent: boolean;
   /** Exponent of glossy lobes; null: the materials'. */
@@ -65,6 +77,8 @@ export function defaultView(): ViewState {
     discs: [],
     window: "none",
     transfer: "best",
+    sunShadow: "sharp",
+    air: null,
     macro: true,
     viewDependent: true,
     lobe: null,
@@ -155,6 +169,15 @@ class Reader {
       this.fail("camera.up", "is zero or lies along the line of sight: choose another");
     return look;
   }
+  air(value: unknown): AirShown | null {
+    if (value === null) return null;
+    const json = this.object(value, "air");
+    const { metresPerUnit = 1, shafts = false } = json;
+    return {
+      metresPerUnit: this.number(metresPerUnit, "air.metresPerUnit", 1e-6, 1e6),
+      shafts: this.flag(shafts, "air.shafts"),
+    };
+  }
   disc(value: unknown, member: string): DiscState {
     const json = this.object(value, member);
     const given = (key: string, standard: number, least: number, most: number) =>
@@ -210,6 +233,9 @@ export function parseView(json: unknown, name: string, base = defaultView()): Vi
   if (from.window !== undefined) view.window = reader.window(from.window);
   if (from.transfer !== undefined)
     view.transfer = reader.word(from.transfer, "transfer", kTransfers);
+  if (from.sunShadow !== undefined)
+    view.sunShadow = reader.word(from.sunShadow, "sunShadow", ["sharp", "soft"] as const);
+  if (from.air !== undefined) view.air = reader.air(from.air);
   if (from.macro !== undefined) view.macro = reader.flag(from.macro, "macro");
   if (from.viewDependent !== undefined)
     view.viewDependent = reader.flag(from.viewDependent, "viewDependent");
