@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include <Eigen/Geometry>
 
@@ -54,6 +55,17 @@ std::vector<std::uint32_t> dropUnused(Mesh& mesh) {
     for (std::uint32_t& v : t) v = newFromOld[v];
   }
   return oldFromNew;
+}
+
+/// Numbers groups from 0 where they are few among many: what is made for each number would be made
+/// for each part of a file of many parts.
+void renumber(std::vector<std::uint32_t>& groups) {
+  const auto most = std::max_element(groups.begin(), groups.end());
+  if (most == groups.end() || *most < 4 * groups.size()) return;
+  std::unordered_map<std::uint32_t, std::uint32_t> newFromOld;
+  for (std::uint32_t& group : groups) {
+    group = newFromOld.try_emplace(group, std::uint32_t(newFromOld.size())).first->second;
+  }
 }
 
 bool isUsable(const Vec3& n) {
@@ -287,6 +299,7 @@ Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& f
   if (!options.groups.empty()) {
     groups.assign(options.groups.begin(), options.groups.end());
     if (!options.keepAllVertices) compact(groups, oldFromNew);
+    renumber(groups);
   }
   const std::size_t unsplit = mesh.positions.size();
   finishNormals(mesh, options, groups, place, diagnosis);

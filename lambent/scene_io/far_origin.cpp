@@ -16,7 +16,8 @@ Vec3d farOrigin(const DoubleBox& box) {
     const double most = std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis]));
     if (most > kFarExtents * extent || (most > kFarMetres && most > kFewExtents * extent)) {
       const double middle = 0.5 * box.lower[axis] + 0.5 * box.upper[axis];
-      origin[axis] = step * std::round(middle / step);
+      const double steps = middle / step;
+      origin[axis] = std::abs(steps) < 0x1p52 ? step * std::round(steps) : middle;
     }
   }
   return origin;

@@ -13,6 +13,9 @@ namespace fs = std::filesystem;
 /// Entries of one folder that are looked at for other capitals.
 constexpr std::size_t kMostEntries = 100000;
 
+/// Bytes of a name that is looked for under other spellings.
+constexpr std::size_t kLongestName = 1024;
+
 std::string lowered(std::string text) {
   for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -56,6 +59,12 @@ std::string FileFinder::entryOf(const fs::path& folder, const std::string& name)
   return known == entry->second.end() ? std::string() : known->second;
 }
 
+bool FileFinder::mayLookInto(const fs::path& folder) {
+  const auto [entry, isNew] = inBounds_.try_emplace(folder, false);
+  if (isNew) entry->second = files_.mayRead(folder.empty() ? fs::path(".") : folder);
+  return entry->second;
+}
+
 fs::path FileFinder::withOtherCapitals(const fs::path& folder, const fs::path& name) {
   fs::path at = folder;
   for (const fs::path& part : name) {
@@ -63,7 +72,7 @@ fs::path FileFinder::withOtherCapitals(const fs::path& folder, const fs::path& n
       at /= part;
       continue;
     }
-    if (!files_.mayRead(at)) return {};
+    if (!mayLookInto(at)) return {};
     const std::string own = entryOf(at, part.string());
     if (own.empty()) return {};
     at /= own;
@@ -79,7 +88,7 @@ FileFinder::Found FileFinder::find(const fs::path& folder, std::string_view name
   }
   std::string clean(whole);
   std::replace(clean.begin(), clean.end(), '\\', '/');
-  if (clean.empty()) return {folder, false, false};
+  if (clean.empty() || clean.size() > kLongestName) return {folder / clean, false, false};
   if (const std::string_view bare = withoutComment(clean); bare.size() < clean.size()) {
     const Found found = find(folder, bare, beside);
     if (found.exists) return found;

@@ -30,12 +30,14 @@ class FileFinder {
  private:
   /// The entry of `folder` that is `name` but for capitals; empty if there is none.
   std::string entryOf(const std::filesystem::path& folder, const std::string& name);
+  bool mayLookInto(const std::filesystem::path& folder);
   std::filesystem::path withOtherCapitals(const std::filesystem::path& folder,
                                           const std::filesystem::path& name);
 
   const LinkedFiles& files_;
   /// Of every folder looked into: lower case → as it is spelled.
   std::map<std::filesystem::path, std::map<std::string, std::string>> entries_;
+  std::map<std::filesystem::path, bool> inBounds_;
 };
 
 }  // namespace lambent::scene_io

@@ -77,6 +77,7 @@ void applyMapOption(std::string_view name, const std::vector<MapWord>& arguments
 }  // namespace
 
 Vec2 UvTransform::apply(const Vec2& uv) const {
+  if (isIdentity()) return uv;  // to the bit
   return {uv.x() * scale.x() + offset.x(), 1.0f - ((1.0f - uv.y()) * scale.y() + offset.y())};
 }
 

@@ -19,10 +19,10 @@ namespace {
 
 struct CornerHash {
   std::size_t operator()(const ObjCorner& c) const {
-    std::uint64_t h = std::uint32_t(c.position);
-    h = h * 0x9e3779b97f4a7c15ull ^ std::uint32_t(c.uv);
-    h = h * 0x9e3779b97f4a7c15ull ^ std::uint32_t(c.normal);
-    h = h * 0x9e3779b97f4a7c15ull ^ std::uint32_t(c.smoothing);
+    std::uint64_t h = std::uint64_t(std::uint32_t(c.normal)) << 32 | std::uint32_t(c.smoothing);
+    h = h * 0x9e3779b97f4a7c15ull ^
+        (std::uint64_t(std::uint32_t(c.uv)) << 32 | std::uint32_t(c.position));
+    h *= 0x9e3779b97f4a7c15ull;
     return std::size_t(h ^ h >> 29);
   }
 };
@@ -65,7 +65,12 @@ class ObjReader {
 Status ObjReader::readLibraries(const std::string& names) {
   const std::filesystem::path folder = path_.parent_path();
   const auto read = [&](std::string_view name) {
-    const FileFinder::Found found = finder_.find(folder, name, folder);
+    FileFinder::Found found = finder_.find(folder, name, folder);
+    if (!found.exists) {  // an OBJ is renamed with its library, and does not get to know it
+      FileFinder::Found own = finder_.find(folder, path_.stem().string() + ".mtl", folder);
+      own.elsewhere = true;
+      if (own.exists) found = std::move(own);
+    }
     if (found.exists && found.elsewhere) {
       diagnosis_.add(Severity::Note, "file-found-beside", 1,
                      "files were not where their names say; those of the same name beside the "
@@ -117,15 +122,19 @@ Result<scene::Mesh> ObjReader::build(const ObjPart& part, const UvTransform& uv,
   scene::Mesh mesh;
   mesh.name = part.object;
   std::unordered_map<ObjCorner, std::uint32_t, CornerHash> known;
+  known.reserve(part.corners.size() / 4);  // of a closed surface of triangles it is a sixth
   std::map<std::pair<std::int32_t, std::int32_t>, std::uint32_t> smoothed;
   std::vector<Vec3d> polygon;
   std::vector<std::uint32_t> ids;
   std::vector<scene::Triangle> cut;
   bool anyUv = false, anyNormal = false;
+  auto next = std::uint32_t(text_.positions.size());  // groups that are no position's
   const auto groupOf = [&](const ObjCorner& corner) {
     if (corner.smoothing == -1) return std::uint32_t(corner.position);
-    const auto next = std::uint32_t(text_.positions.size() + smoothed.size());
-    return smoothed.try_emplace({corner.position, corner.smoothing}, next).first->second;
+    if (corner.smoothing < -1) return next++;  // a face's own
+    const auto [entry, isNew] = smoothed.try_emplace({corner.position, corner.smoothing}, next);
+    next += isNew;
+    return entry->second;
   };
   const auto addVertex = [&](const ObjCorner& corner) {
     const auto position = std::size_t(corner.position);
@@ -150,9 +159,15 @@ Result<scene::Mesh> ObjReader::build(const ObjPart& part, const UvTransform& uv,
       const auto [entry, isNew] = known.try_emplace(corner, std::uint32_t(mesh.positions.size()));
       if (isNew) addVertex(corner);
       ids.push_back(entry->second);
-      polygon.push_back(text_.positions[std::size_t(corner.position)]);
     }
     first += part.sizes[face];
+    if (ids.size() == 3) {
+      mesh.triangles.push_back({ids[0], ids[1], ids[2]});
+      continue;
+    }
+    for (std::size_t i = first - ids.size(); i < first; ++i) {
+      polygon.push_back(text_.positions[std::size_t(part.corners[i].position)]);
+    }
     crossing += !cutPolygon(polygon, cut);
     for (const auto& [a, b, c] : cut) mesh.triangles.push_back({ids[a], ids[b], ids[c]});
   }

@@ -1,6 +1,8 @@
 #include "lambent/scene_io/ply.h"
 
-#include <set>
+#include <algorithm>
+#include <numeric>
+#include <span>
 #include <string>
 #include <unordered_map>
 
@@ -52,7 +54,8 @@ class PlyReader {
   /// The vertices as they are, or for each texture those of its triangles, one for each distinct
   /// corner. `groups` are the vertices' numbers.
   scene::Mesh wholeMesh();
-  scene::Mesh meshOf(int texture, std::vector<std::uint32_t>& groups);
+  scene::Mesh meshOf(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& groups);
+  Status addMeshes();
   Status addMesh(scene::Mesh mesh, const std::vector<std::uint32_t>& groups, int texture);
   Result<int> materialWith(int texture, bool hasUvs, bool hasColors);
   void tellHeader();
@@ -112,7 +115,8 @@ scene::Mesh PlyReader::wholeMesh() {
   return mesh;
 }
 
-scene::Mesh PlyReader::meshOf(int texture, std::vector<std::uint32_t>& groups) {
+scene::Mesh PlyReader::meshOf(std::span<const std::uint32_t> triangles,
+                              std::vector<std::uint32_t>& groups) {
   scene::Mesh mesh;
   std::unordered_map<PlyCorner, std::uint32_t, PlyCornerHash> known;
   const auto vertexOf = [&](const PlyCorner& corner) {
@@ -126,8 +130,7 @@ scene::Mesh PlyReader::meshOf(int texture, std::vector<std::uint32_t>& groups) {
     if (!colors_.empty() || !faceColors_.empty()) mesh.colors.push_back(corner.color);
     return entry->second;
   };
-  for (std::size_t t = 0; t < data_.triangles.size(); ++t) {
-    if (!data_.textures.empty() && data_.textures[t] != texture) continue;
+  for (const std::uint32_t t : triangles) {
     scene::Triangle triangle;
     for (std::size_t i = 0; i < 3; ++i) {
       PlyCorner corner{data_.triangles[t][i]};
@@ -205,6 +208,28 @@ void PlyReader::tellHeader() {
   }
 }
 
+Status PlyReader::addMeshes() {
+  if (data_.cornerUvs.empty() && faceColors_.empty() && data_.textures.empty()) {
+    return addMesh(wholeMesh(), {}, 0);
+  }
+  std::vector<std::uint32_t> order(data_.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto textureOf = [&](std::uint32_t t) {
+    return data_.textures.empty() ? 0 : data_.textures[t];
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return textureOf(a) < textureOf(b); });
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    const int texture = textureOf(order[first]);
+    while (last < order.size() && textureOf(order[last]) == texture) ++last;
+    std::vector<std::uint32_t> groups;
+    scene::Mesh mesh = meshOf(std::span(order).subspan(first, last - first), groups);
+    if (Status fits = files_.budget().hold(bytesOf(mesh), name_ + ": the mesh"); !fits) return fits;
+    if (Status added = addMesh(std::move(mesh), groups, texture); !added) return added;
+  }
+  return Status::ok();
+}
+
 Result<LoadedScene> PlyReader::read(PlyBody body) {
   Result<PlyData> data = readPlyData(header_, body, name_, files_.budget(), diagnosis_);
   if (!data) return data.error();
@@ -226,22 +251,7 @@ Result<LoadedScene> PlyReader::read(PlyBody body) {
                     "are taken");
     faceColors_.clear();
   }
-  Status added = Status::ok();
-  if (data_.cornerUvs.empty() && faceColors_.empty() && data_.textures.empty()) {
-    added = addMesh(wholeMesh(), {}, 0);
-  } else {
-    std::set<int> numbers(data_.textures.begin(), data_.textures.end());
-    if (numbers.empty()) numbers.insert(0);
-    for (const int texture : numbers) {
-      std::vector<std::uint32_t> groups;
-      scene::Mesh mesh = meshOf(texture, groups);
-      if (Status fits = files_.budget().hold(bytesOf(mesh), name_ + ": the mesh"); !fits) {
-        return fits.error();
-      }
-      added = addMesh(std::move(mesh), groups, texture);
-      if (!added) break;
-    }
-  }
+  const Status added = addMeshes();
   if (!added) return added.error();
   if (loaded_.scene.meshes.empty()) return bad("all its triangles are without area");
   loaded_.findings = diagnosis_.findings();

@@ -11,7 +11,10 @@
 #include "lambent/scene_io/polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -23,9 +26,12 @@ using Vec2d = Eigen::Vector2d;
 
 /// Corners from which a grid is worth making.
 constexpr std::size_t kGridCorners = 48;
-/// Corners that are looked at for each corner of the polygon, before the work is broken off: many
-/// times what outlines of towns, combs and spirals need.
-constexpr std::size_t kMostWork = 4096;
+/// Corners and cells that are looked at before the work is broken off, for a polygon of `corners`.
+/// Outlines take some tens for each corner; what takes most is a comb, whose straight back has nearly
+/// all corners in one row of the grid: some times the root of their number for each.
+std::size_t mostWork(std::size_t corners) {
+  return corners * (256 + 8 * std::size_t(std::sqrt(double(corners))));
+}
 
 /// Twice the area of a triangle. Kahan's difference of products: its sign is that of the differences
 /// between the corners.
@@ -95,10 +101,10 @@ class BentCorners {
   /// what is looked at.
   bool anyIn(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::size_t& work) {
     const Vec2d &pa = flat_[a], &pb = flat_[b], &pc = flat_[c];
-    const Vec2d lower = pa.cwiseMin(pb).cwiseMin(pc), upper = pa.cwiseMax(pb).cwiseMax(pc);
-    const auto [x0, y0] = cell(lower);
-    const auto [x1, y1] = cell(upper);
-    for (int y = y0; y <= y1; ++y) {
+    const double lowest = std::min({pa.y(), pb.y(), pc.y()});
+    const double highest = std::max({pa.y(), pb.y(), pc.y()});
+    for (int y = cell(lowest, 1), last = cell(highest, 1); y <= last; ++y) {
+      const auto [x0, x1] = cellsInRow(y, {pa, pb, pc});
       for (int x = x0; x <= x1; ++x) {
         ++work;
         std::uint32_t* link = &first_[std::size_t(y) * std::size_t(side_) + std::size_t(x)];
@@ -122,17 +128,34 @@ class BentCorners {
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  std::pair<int, int> cell(const Vec2d& p) const {
-    const auto along = [&](int axis) {
-      const double extent = upper_[axis] - lower_[axis];
-      const double place = extent > 0.0 ? (p[axis] - lower_[axis]) / extent : 0.0;
-      return std::clamp(int(place * side_), 0, side_ - 1);
-    };
-    return {along(0), along(1)};
+  int cell(double place, int axis) const {
+    const double extent = upper_[axis] - lower_[axis];
+    const double share = extent > 0.0 ? (place - lower_[axis]) / extent : 0.0;
+    return std::clamp(int(share * side_), 0, side_ - 1);
   }
   std::size_t cellOf(const Vec2d& p) const {
-    const auto [x, y] = cell(p);
-    return std::size_t(y) * std::size_t(side_) + std::size_t(x);
+    return std::size_t(cell(p.y(), 1)) * std::size_t(side_) + std::size_t(cell(p.x(), 0));
+  }
+  /// The first and the last cell of a row that a triangle touches, and one more on either side: a
+  /// sliver across the whole polygon touches few cells of each.
+  std::pair<int, int> cellsInRow(int row, const std::array<Vec2d, 3>& triangle) const {
+    const double height = (upper_.y() - lower_.y()) / side_;
+    const double bottom = lower_.y() + height * (row - 0.5), top = bottom + 2.0 * height;
+    double left = upper_.x(), right = lower_.x();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2d &p = triangle[i], &q = triangle[(i + 1) % 3];
+      const double rise = q.y() - p.y();
+      for (const double y : {p.y(), q.y(), bottom, top}) {
+        if (y < std::max(bottom, std::min(p.y(), q.y())) ||
+            y > std::min(top, std::max(p.y(), q.y()))) {
+          continue;
+        }
+        const double x = rise != 0.0 ? p.x() + (q.x() - p.x()) * ((y - p.y()) / rise) : p.x();
+        left = std::min({left, x, rise != 0.0 ? x : q.x()});
+        right = std::max({right, x, rise != 0.0 ? x : q.x()});
+      }
+    }
+    return {std::max(cell(left, 0) - 1, 0), std::min(cell(right, 0) + 1, side_ - 1)};
   }
 
   const std::vector<Vec2d>& flat_;
@@ -160,26 +183,23 @@ class EarCutter {
 
   bool cut() {
     bool clean = true;
-    std::size_t work = 0;
-    const std::size_t mostWork = kMostWork * count_;
-    std::uint32_t at = 0, since = 0;  // candidates since the last ear
-    for (std::uint32_t left = count_; left > 3;) {
-      const bool entangled = since > left || work > mostWork;
-      if (!entangled && !isEar(at, work)) {
-        at = after_[at];
-        ++since;
-        continue;
+    const std::size_t most = mostWork(count_);
+    std::uint32_t at = 0;  // one that is left
+    lookAgain(at);
+    for (std::uint32_t left = count_; left > 3; --left) {
+      std::optional<std::uint32_t> ear = nextEar(most);
+      if (!ear && work_ < most) {  // what touches itself may have been overlooked
+        lookAgain(at);
+        ear = nextEar(most);
       }
       // What has no ear crosses itself, or is a line: any cut is as good.
-      if (entangled) clean = clean && turnAt(at) == 0.0;
-      remove(at);
-      at = after_[after_[at]];  // not always the same corner: slivers
-      since = 0;
-      --left;
-      last_ = before_[at];
+      if (!ear) clean = clean && turnAt(at) == 0.0;
+      const std::uint32_t b = ear.value_or(at);
+      at = after_[b];
+      remove(b);
     }
-    triangles_.push_back({before_[last_], last_, after_[last_]});
-    return clean;
+    triangles_.push_back({before_[at], at, after_[at]});
+    return clean && turnAt(at) >= 0.0;
   }
 
  private:
@@ -193,9 +213,24 @@ class EarCutter {
   double turnAt(std::uint32_t b) const {
     return turn(flat_[before_[b]], flat_[b], flat_[after_[b]]);
   }
-  bool isEar(std::uint32_t b, std::size_t& work) {
-    ++work;
-    return !bent_.isBent(b) && !bent_.anyIn(before_[b], b, after_[b], work);
+  /// All that are left, from `first` on, are candidates.
+  void lookAgain(std::uint32_t first) {
+    std::uint32_t i = first;
+    do {
+      candidates_.push_back(i);
+      i = after_[i];
+    } while (i != first);
+  }
+  /// A corner that is no ear becomes one only when a neighbour is cut off.
+  std::optional<std::uint32_t> nextEar(std::size_t most) {
+    while (!candidates_.empty() && work_ < most) {
+      const std::uint32_t b = candidates_.front();
+      candidates_.pop_front();
+      ++work_;
+      const bool gone = after_[before_[b]] != b || before_[b] == after_[b];
+      if (!gone && !bent_.isBent(b) && !bent_.anyIn(before_[b], b, after_[b], work_)) return b;
+    }
+    return {};
   }
   void remove(std::uint32_t b) {
     const std::uint32_t a = before_[b], c = after_[b];
@@ -205,13 +240,16 @@ class EarCutter {
     bent_.straighten(b);
     for (const std::uint32_t neighbour : {a, c}) {
       if (bent_.isBent(neighbour) && turnAt(neighbour) > 0.0) bent_.straighten(neighbour);
+      candidates_.push_back(neighbour);
     }
   }
 
   const std::vector<Vec2d>& flat_;
   std::vector<scene::Triangle>& triangles_;
-  std::uint32_t count_ = 0, last_ = 0;
+  std::uint32_t count_ = 0;
+  std::size_t work_ = 0;
   std::vector<std::uint32_t> before_, after_;
+  std::deque<std::uint32_t> candidates_;
   BentCorners bent_;
 };
 

@@ -56,7 +56,7 @@ TEST(Polygon, ArrowheadsFromEveryCorner) {
 }
 
 TEST(Polygon, CombsOfAnySize) {
-  for (const int teeth : {1, 3, 20, 500, 20000}) expectFilled(comb(teeth));
+  for (const int teeth : {1, 3, 20, 500, 5000}) expectFilled(comb(teeth));
 }
 
 TEST(Polygon, Stars) {

@@ -119,6 +119,11 @@ TEST_F(TextFiles, NamesAsTheyAreSpelled) {
         "names.obj", "mtllib " + std::string(name) + "\nusemtl red\n" + std::string(kTriangle));
     EXPECT_TRUE(loaded.scene.materials[0].diffuse.isApprox(Rgb(0.5f, 0.25f, 0.0f))) << name;
   }
+  folder_.write("names.mtl", red);  // beside names.obj
+  const LoadedScene renamed =
+      loadText("names.obj", "mtllib untitled.mtl\nusemtl red\n" + std::string(kTriangle));
+  EXPECT_TRUE(renamed.scene.materials[0].diffuse.isApprox(Rgb(0.5f, 0.25f, 0.0f)));
+  EXPECT_EQ(countOf(renamed.findings, "file-found-beside"), 1u);
   EXPECT_EQ(libraryNames("a b.mtl \"c d.mtl\" e.MTL # f"),
             (std::vector<std::string>{"a b.mtl", "c d.mtl", "e.MTL"}));
   EXPECT_EQ(libraryNames("a b"), (std::vector<std::string>{"a", "b"}));

@@ -35,8 +35,7 @@ std::optional<ParsedNumber> windowsNumber(const char* mark, const char* last, bo
 
 }  // namespace
 
-std::optional<ParsedNumber> parseNumber(const char* first, const char* last) {
-  if (first != last && *first == '+') ++first;
+std::optional<ParsedNumber> parseOddNumber(const char* first, const char* last) {
   ParsedNumber number;
   const auto [stop, error] = std::from_chars(first, last, number.value);
   if (error == std::errc::invalid_argument) return {};

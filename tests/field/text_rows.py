@@ -28,11 +28,15 @@ ROWS = {
         Custom("bom_shift.obj", quad_keeps_its_corners),
     ],
     "02-obj-trailing-comment": [Radiance("comment.obj", GREY)],
-    "03-obj-georeferenced": [Same("utm.obj", "origin.obj", finds=("far-origin",))],
+    "03-obj-georeferenced": [
+        Same("utm.obj", "origin.obj", finds=("far-origin",)),
+        Same("earth-centred.ply", "origin.obj", finds=("far-origin",)),
+        Same("blocks-far.ply", "blocks-near.ply", finds=("far-origin",)),
+    ],
     "11-mtl-texture-options": [Radiance("scale.obj", (1, 1, 1), where=inside)],
     "12-mtl-paths": [
         Radiance("mtllib_back.obj", RED, silent=("material-file-missing",)),
-        Findings("abs_win.obj", ("texture-unreadable",), loss=True),
+        Radiance("abs_win.obj", COUNTED_RED, finds=("file-found-beside",)),
     ],
     "13-ply-face-texcoord": [Radiance("wedge.ply", COUNTED_RED)],
     "14-ply-face-colors": [Radiance("facecolor.ply", COUNTED_RED)],

@@ -243,6 +243,11 @@ f 5 4 3 2 1
 l 1 2
 p 1
 """,
+    "windows.obj": "\ufeffmtllib C:\\jobs\\scene.mtl # there\r\nv 448251.25 5 5411930.5 188 60 60#\r\n"
+                   "v 448252.25 5 5411930.5\r\nv 448252.25 5 5411931.5 9 9 9\r\nvt 1.#QNAN 0\r\n"
+                   "s off\r\nusemtl red # one\r\nf 1/1 2/1 3/1 # all\r\ncall x\r\nsurf 1\r\n"
+                   "#=== scene.mtl\nnewmtl red # wine\nKd 255 0 0\nKe 2 1 .5\nTr .5\n"
+                   "map_Kd \"Tile.PNG\" -s 2 2 1 -o .5 0 -clamp on -imfchan r\nbump -bm 1 tile.png\n",
     "numbers.obj": "v 1e-40 +.5 -1e30\r\nv 1e39 0 0\r\nv 0 1 0\r\nv 0 0 1\rf 1 3 4\nf 3 4 1 2\n",
 }
 
@@ -274,6 +279,35 @@ end_header
 3 0 1 2
 4 0 2 3 1
 7 2 0.5 1.5
+"""
+
+
+PLY_CORNERS = """ply
+made by an old exporter
+format ascii 1.0
+comment TextureFile tile.png
+comment TextureFile TILE.png
+obj_info 3
+element vertex 4
+property double x
+property double y
+property double z
+property float alpha
+element face 3
+property list uchar int vertex_indices
+property list uchar float texcoord
+property int texnumber
+property int red
+property int green
+property int blue
+end_header
+448251.25 0 5411930.5 1
+448252.25 0 5411930.5 .5
+448252.25 1 5411930.5 1
+448251.25 1 5411930.5 1.#INF
+3 0 1 2 6 0 0 1 0 1 1 1 188 60 60
+4 0 1 2 3 8 0 0 1 0 1 1 0 1 0 9 9 9
+3 1 2 3 0 7 256 0 0
 """
 
 
@@ -315,6 +349,7 @@ def main():
     for name, text in OBJ.items():
         save(f"obj/{name}", text.encode())
     save("ply/text.ply", PLY_TEXT.encode())
+    save("ply/corners.ply", PLY_CORNERS.encode())
     save("ply/little.ply", ply_binary(False))
     save("ply/big.ply", ply_binary(True))
     save("ply/faces.ply", ply_faces())
