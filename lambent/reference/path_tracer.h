@@ -26,7 +26,7 @@ struct PathTraceOptions {
   /// picture: before what its perspective camera sees, and what mirrors show it; light on its way to
   /// surfaces passes through none. Shafts of light by rays from each place that a ray passes towards
   /// the middle of the environment's Sun (light::sunOf), if it has one.
-  std::optional<shade::Air> air;
+  std::optional<shade::Air> air = {};
   int threads = 0;  ///< 0: all. No effect on the result's bytes
 };
 

@@ -546,16 +546,18 @@ TEST(AirBefore, LiesBeforeSurfacesAndTheGroundBehind) {
   const Picture with = seenOver(world, light, options);
   for (int y = 0; y < 12; ++y)
     for (const int x : {2, 9}) {
+      const bool behind = x == 2;
+      if (behind && (y == 5 || y == 6)) continue;  // the horizon runs through these pixels
       const Vec3 direction = lookedAt(x, y);
       const Rgb before = without.mean.at(x, y);
-      const Rgb expected = x > 6 ? options.air->seen(direction, 6000 / -direction.z(), before)
-                                 : options.air->seenBehind(Vec3(0, 20, 0), direction, before);
-      // Air is not linear over a pixel, least so next to the horizon.
-      const bool horizon = x < 6 && y >= 5 && y <= 8;
-      EXPECT_LT((with.mean.at(x, y) - expected).abs().maxCoeff(),
-                (horizon ? 0.2f : 0.02f) * expected.maxCoeff())
-          << x << ' ' << y;
-      if (x > 6) EXPECT_GT((with.mean.at(x, y) - before).abs().maxCoeff(), 0.1f);
+      const Rgb expected = behind ? options.air->seenBehind(Vec3(0, 20, 0), direction, before)
+                                  : options.air->seen(direction, 6000 / -direction.z(), before);
+      // Air is not linear over a pixel of the ground.
+      const float apart = (with.mean.at(x, y) - expected).abs().maxCoeff();
+      EXPECT_LT(apart, (behind ? 0.05f : 0.02f) * expected.maxCoeff()) << x << ' ' << y;
+      if (!behind) {
+        EXPECT_GT((with.mean.at(x, y) - before).abs().maxCoeff(), 0.1f);
+      }
     }
   scene::Camera camera;
   camera.orthographicHalfHeight = 5.0f;

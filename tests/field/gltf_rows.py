@@ -51,8 +51,8 @@ ROWS = {
                  silent=("extension-KHR_node_visibility",)),
     ],
     "28-gltf-compressed-not-required": [
-        Radiance("draco.glb", GREY),
-        Radiance("draco_noidx.glb", (1.0, 1.0, 1.0)),
-        Refused("webp.glb", says=("image 0",)),
+        Refused("draco.glb", says=("mesh 0", "Draco", "gltf-transform")),
+        Refused("draco_noidx.glb", says=("mesh 0", "Draco", "gltf-transform")),
+        Refused("webp.glb", says=("image 0", "WebP", "damaged")),
     ],
 }

