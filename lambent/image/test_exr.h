@@ -33,13 +33,19 @@ inline void writeExrParts(const std::string& path, std::vector<ExrPart> parts) {
   }
   Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Imath::Box2i& window = headers[i].dataWindow();
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    const int height = window.max.y - window.min.y + 1;
+    std::map<std::string, std::vector<float>> planes;
     Imf::FrameBuffer frame;
-    for (auto& [name, value] : parts[i].channels)  // a stride of 0: one value for all pixels
-      frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&value), 0, 0));
+    for (const auto& [name, value] : parts[i].channels) {
+      std::vector<float>& plane = planes[name];
+      plane.assign(width * static_cast<std::size_t>(height), value);
+      frame.insert(name, Imf::Slice::Make(Imf::FLOAT, plane.data(), window));
+    }
     Imf::OutputPart part(file, static_cast<int>(i));
     part.setFrameBuffer(frame);
-    const Imath::Box2i& window = headers[i].dataWindow();
-    part.writePixels(window.max.y - window.min.y + 1);
+    part.writePixels(height);
   }
 }
 

@@ -130,6 +130,7 @@ PictureName pictureNameOf(std::string_view name) {
   const std::filesystem::path whole{std::string(name)};
   const std::size_t colon = name.rfind(':');
   if (colon == std::string_view::npos || colon + 1 == name.size()) return {whole, {}};
+  if (name.find('+', colon) != std::string_view::npos) return {whole, {}};  // a sum of terms
   const std::filesystem::path path{std::string(name.substr(0, colon))};
   if (file::extensionOf(path) != ".exr" || std::filesystem::exists(whole, ignored))
     return {whole, {}};

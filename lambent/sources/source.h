@@ -72,7 +72,7 @@ std::span<const SourceKind> sourceKinds();
 /// The kind whose word a term begins with; null if the term is the name of a file.
 const SourceKind* kindOf(std::string_view term);
 
-/// FILE.exr:LAYER in two; a file that has such a name is one.
+/// FILE.exr:LAYER in two; a file that has such a name is one. A layer's name has no '+'.
 struct PictureName {
   std::filesystem::path path;
   std::string layer;  ///< or empty

@@ -3,6 +3,7 @@ import { FloatType, RedFormat } from "three";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
 import type { EquirectangularImage } from "three-lambent";
 import { srgbDecode } from "three-lambent";
+import { type Chromaticities, toRec709 } from "./primaries";
 
 /** Linear radiance; four floats a pixel, the zenith's row first. */
 export interface LightMap {
@@ -63,8 +64,12 @@ async function decodeExr(bytes: ArrayBuffer): Promise<LightMap> {
     height: number;
     data: Float32Array;
     format: number;
+    header: { chromaticities?: Chromaticities; envmap?: string; spec: { multiPart: boolean } };
   };
-  const { width, height } = parsed;
+  const { width, height, header } = parsed;
+  // What the loader takes for the picture then is not what the tool takes.
+  if (header.envmap === "ENVMAP_CUBE" || header.spec.multiPart)
+    throw new Error("a cube map or several parts: lambent view --web ASSET FILE shows it here");
   const channels = parsed.format === RedFormat ? 1 : 4;
   const data = new Float32Array(4 * width * height);
   // The loader gives the lowest row first.
@@ -73,6 +78,7 @@ async function decodeExr(bytes: ArrayBuffer): Promise<LightMap> {
       for (let c = 0; c < 4; ++c)
         data[4 * (y * width + x) + c] =
           parsed.data[channels * ((height - 1 - y) * width + x) + (channels === 4 ? c : 0)]!;
+  if (header.chromaticities && channels === 4) toRec709(header.chromaticities, data);
   return { width, height, data };
 }
 
