@@ -11,7 +11,7 @@
 namespace lambent::render {
 
 /// What a program that looks through the air includes: shaders/phase_function.glsl,
-/// aerial_perspective.glsl and opengl/air_table.glsl; with shafts of light shafts.glsl too.
+/// aerial_perspective.glsl, opengl/air_table.glsl and air_texels.glsl; with shafts of light shafts.glsl too.
 std::string airSource(bool shafts);
 
 class GlAir {

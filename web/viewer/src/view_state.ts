@@ -38,6 +38,8 @@ export interface ViewState {
   /** Without a width: as many bands as the light has. */
   window: WindowName | "hann" | "lanczos";
   transfer: TransferChoice;
+  /** Of the light's Sun, if it has one: on diffuse surfaces. */
+  sunShadow: "sharp" | "soft";
   macro: boolean;
   viewDependent: boolean;
   /** Exponent of glossy lobes; null: the materials'. */
@@ -65,6 +67,7 @@ export function defaultView(): ViewState {
     discs: [],
     window: "none",
     transfer: "best",
+    sunShadow: "sharp",
     macro: true,
     viewDependent: true,
     lobe: null,
@@ -210,6 +213,8 @@ export function parseView(json: unknown, name: string, base = defaultView()): Vi
   if (from.window !== undefined) view.window = reader.window(from.window);
   if (from.transfer !== undefined)
     view.transfer = reader.word(from.transfer, "transfer", kTransfers);
+  if (from.sunShadow !== undefined)
+    view.sunShadow = reader.word(from.sunShadow, "sunShadow", ["sharp", "soft"] as const);
   if (from.macro !== undefined) view.macro = reader.flag(from.macro, "macro");
   if (from.viewDependent !== undefined)
     view.viewDependent = reader.flag(from.viewDependent, "viewDependent");
