@@ -1,7 +1,7 @@
 // The ground of an environment through the air, behind everything and in mirrors:
 // shade::Air::seenBehind.
 //
-// Before this text: opengl/air_table.glsl and what it wants, or what stands in its place.
+// Before this text: air_texels.glsl and what it wants.
 
 uniform vec3 airGround;  // where heights are counted from, in the asset's frame
 

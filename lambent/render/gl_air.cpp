@@ -42,7 +42,9 @@ std::string airSource(bool shafts) {
   for (const char* name : {"phase_function.glsl", "aerial_perspective.glsl"})
     text += shaderSource(name);
   if (shafts) text += shaderSource("shafts.glsl");
-  return text.append(shaderSource("air_table.glsl")).append(shaderSource("air_behind.glsl"));
+  return text.append(shaderSource("air_table.glsl"))
+      .append(shaderSource("air_texels.glsl"))
+      .append(shaderSource("air_behind.glsl"));
 }
 
 Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {

@@ -11,8 +11,8 @@
 namespace lambent::render {
 
 /// What a program that looks through the air includes: shaders/phase_function.glsl,
-/// aerial_perspective.glsl, opengl/air_table.glsl and air_behind.glsl; with shafts of light shafts.glsl
-/// too.
+/// aerial_perspective.glsl, opengl/air_table.glsl, air_texels.glsl and air_behind.glsl; with shafts of
+/// light shafts.glsl too.
 std::string airSource(bool shafts);
 
 class GlAir {

@@ -29,7 +29,7 @@ class GlSunMap {
   }
   /// Gives a program that holds sun_shadow.glsl the map.
   void bind(const Program& program) const;
-  /// … or opengl/air_table.glsl with shafts of light.
+  /// … or air_texels.glsl with shafts of light.
   void bindForShafts(const Program& program) const;
 
  private:

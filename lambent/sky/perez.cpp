@@ -17,28 +17,12 @@
 
 #include "lambent/sky/air_mass.h"
 #include "lambent/sky/dome_quadrature.h"
+#include "lambent/sky/perez_tables.h"
 
 namespace lambent::sky {
 namespace {
 
-constexpr int kBins = 8;
-constexpr double kBinBorders[kBins - 1] = {1.065, 1.230, 1.500, 1.950, 2.800, 4.500, 6.200};
 constexpr double kSolarConstant = 1367;  // W m⁻²: as perez1990modeling has it
-
-constexpr double kPerezTable[kBins][5][4] = {
-#include "lambent/sky/perez1993.inc"
-};
-
-// a, b, c, d of E_v / E = a + b W + c cos Z + d ln Δ.
-constexpr double kDiffuseEfficacy[kBins][4] = {
-    {97.24, -.46, 12.00, -8.91},    {107.22, 1.15, .59, -3.95},     {104.97, 2.96, -5.53, -8.77},
-    {102.39, 5.59, -13.95, -13.90}, {100.71, 5.94, -22.75, -23.74}, {106.42, 3.83, -36.15, -28.83},
-    {141.88, 1.90, -53.24, -14.03}, {152.23, .35, -45.27, -7.98}};
-// a, b, c, d of E_v / E = a + b W + c e^(5.73 Z − 5) + d Δ.
-constexpr double kDirectEfficacy[kBins][4] = {
-    {57.20, -4.55, -2.98, 117.12}, {98.99, -3.46, -1.21, 12.38},  {109.83, -4.90, -1.71, -8.81},
-    {110.34, -5.84, -1.99, -4.56}, {106.36, -3.97, -1.75, -6.16}, {107.19, -1.25, -1.51, -26.73},
-    {105.75, .77, -1.26, -34.44},  {101.18, 1.58, -1.10, -8.29}};
 
 struct BinShare {
   int bin;
@@ -47,8 +31,8 @@ struct BinShare {
 /// The row of a clearness, and the row beyond the border that is near, if one is.
 std::pair<BinShare, BinShare> binShares(double clearness, double blend) {
   const double width = std::clamp(blend, 0.0, .03);
-  for (int border = 0; border + 1 < kBins; ++border) {
-    const double distance = std::log(clearness / kBinBorders[border]);
+  for (int border = 0; border + 1 < kPerezBins; ++border) {
+    const double distance = std::log(clearness / kPerezBorders[border]);
     if (width > 0 && std::abs(distance) < width) {
       const double t = (distance / width + 1) / 2;
       const double upper = t * t * (3 - 2 * t);
@@ -73,12 +57,12 @@ SkyCondition skyCondition(const MeasuredIrradiance& irradiance, double sunElevat
 }
 
 int clearnessBin(double clearness) {
-  return int(std::upper_bound(std::begin(kBinBorders), std::end(kBinBorders), clearness) -
-             std::begin(kBinBorders));
+  return int(std::upper_bound(std::begin(kPerezBorders), std::end(kPerezBorders), clearness) -
+             std::begin(kPerezBorders));
 }
 
 PerezCoefficients perezCoefficients(int bin, double brightness, double sunZenith) {
-  const auto& row = kPerezTable[std::clamp(bin, 0, kBins - 1)];
+  const auto& row = kPerezTable[std::clamp(bin, 0, kPerezBins - 1)];
   const double delta = bin >= 1 && bin <= 4 ? std::max(brightness, .2) : brightness;
   const auto linear = [&](const double(&x)[4]) {
     return x[0] + x[1] * sunZenith + delta * (x[2] + x[3] * sunZenith);
@@ -95,9 +79,9 @@ PerezCoefficients perezCoefficients(int bin, double brightness, double sunZenith
 }
 
 Efficacy perezEfficacy(int bin, double brightness, double sunZenith, double precipitableWater) {
-  const int row = std::clamp(bin, 0, kBins - 1);
-  const auto& f = kDiffuseEfficacy[row];
-  const auto& n = kDirectEfficacy[row];
+  const int row = std::clamp(bin, 0, kPerezBins - 1);
+  const auto& f = kPerezDiffuseEfficacy[row];
+  const auto& n = kPerezDirectEfficacy[row];
   return {std::max(f[0] + f[1] * precipitableWater + f[2] * std::cos(sunZenith) +
                        f[3] * std::log(brightness),
                    0.0),

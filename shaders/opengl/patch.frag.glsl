@@ -3,7 +3,7 @@
 //
 // Before this text stand: #define LAMBENT_FILTER 0 or 1, and what these want: incident.glsl,
 // corner_weights.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl, rtt_look_up.glsl,
-// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; LAMBENT_AIR 1, with what air_table.glsl
+// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; LAMBENT_AIR 1, with what air_texels.glsl
 // says, or 0.
 
 struct Vertex {

@@ -1,7 +1,7 @@
 // What the shadows of things take from the air before the background, as far as the scene reaches:
 // radiance that is negative, without coverage.
 //
-// Before this text: what air_table.glsl says, with LAMBENT_SHAFTS 1.
+// Before this text: what air_texels.glsl says, with LAMBENT_SHAFTS 1.
 
 // The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up.
 uniform vec3 corner, right, up;

@@ -5,7 +5,7 @@
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, base_color_map.glsl, shading_normal.glsl, texel_receivers.glsl,
 // corner_weights.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl, environment_maps.glsl;
-// LAMBENT_AIR 1, with what air_table.glsl says, or 0.
+// LAMBENT_AIR 1, with what air_texels.glsl says, or 0.
 
 struct Vertex {
   vec4 positionU;

@@ -5,15 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <Eigen/Dense>
 
 #include "lambent/radiometry/spectra.h"
+#include "lambent/sky/asrc_cie.h"
 #include "lambent/sky/make_sky.h"
+#include "lambent/sky/perez_tables.h"
 #include "lambent/sky/sun_above.h"
+#include "web/sky_data/factors.h"
+#include "web/sky_data/packed_numbers.h"
 
 namespace lambent::page {
 namespace {
@@ -61,26 +64,25 @@ double discElevation(int node) {
   return kPi / 2 * t * t;
 }
 
-/// Whole numbers as their differences from those before: small ones take one byte.
-class Differences {
- public:
-  explicit Differences(std::string& out) : out_(out) {}
-  void add(double value) {
-    const auto whole = std::int64_t(std::llround(value));
-    const std::int64_t step = whole - before_;
-    before_ = whole;
-    for (auto bits = std::uint64_t(step < 0 ? -2 * step - 1 : 2 * step);; bits >>= 7) {
-      out_.push_back(char((bits & 127) | (bits > 127 ? 128 : 0)));
-      if (bits <= 127) return;
-    }
-  }
-
- private:
-  std::string& out_;
-  std::int64_t before_ = 0;
-};
+/// The numbers of the models that know a sky by its irradiances.
+std::string measuredSkies() {
+  const auto list = [](const auto& table) {
+    const auto* first = reinterpret_cast<const double*>(&table);
+    return fmt::format("[{}]", fmt::join(first, first + sizeof(table) / sizeof(double), ","));
+  };
+  const sky::AsrcKnots knots;
+  return fmt::format(
+      R"({{"borders":{},"pattern":{},"diffuse":{},"direct":{},"knots":[{},{},{},{},{}]}})",
+      list(sky::kPerezBorders), list(sky::kPerezTable), list(sky::kPerezDiffuseEfficacy),
+      list(sky::kPerezDirectEfficacy), knots.overcastUntil, knots.intermediateAt,
+      knots.cloudlessFrom, knots.clearUntil, knots.turbidFrom);
+}
 
 }  // namespace
+
+double turbidityWithoutHaze() {
+  return kNoHaze;
+}
 
 std::vector<double> turbidityNodes() {
   std::vector<double> nodes;
@@ -97,32 +99,11 @@ Result<std::string> compactTable(const std::vector<TurbidSky>& skies,
   Eigen::MatrixXd m(Eigen::Index(rows.size()), Eigen::Index(rows.front().size()));
   for (Eigen::Index r = 0; r < m.rows(); ++r)
     m.row(r) = Eigen::Map<const Eigen::RowVectorXd>(rows[std::size_t(r)].data(), m.cols());
-  const Eigen::RowVectorXd mean = m.colwise().mean();
-  m.rowwise() -= mean;
-  m.rightCols(3) *= kGroundWeight;
-  // Of the smaller side: M Mᵀ = U S² Uᵀ.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(m * m.transpose());
-  if (solver.info() != Eigen::Success)
-    return report::Error{report::ErrorKind::BadInput, "the tables could not be factorised"};
-  const int components = std::min<int>(options.components, int(m.rows()));
-  std::string arrays;
-  const auto append = [&arrays](const auto& values, double scale) {
-    Differences out(arrays);
-    for (const double value : values) out.add(value * scale);
-  };
-  std::vector<double> weightSteps;
-  append(mean, 1 / options.step);
-  for (int k = 0; k < components; ++k) {
-    Eigen::VectorXd u = solver.eigenvectors().col(m.rows() - 1 - k);
-    const double largest = u.cwiseAbs().maxCoeff();
-    u /= largest;
-    Eigen::RowVectorXd basis = u.transpose() * m * (largest * largest);
-    basis.tail(3) /= kGroundWeight;
-    const double step = 0.5 * options.step / basis.cwiseAbs().maxCoeff();
-    append(basis, 1 / options.step);
-    weightSteps.push_back(step);
-    append(u, 1 / step);
-  }
+  FactorOptions rounded{options.components, options.step, Eigen::RowVectorXd::Ones(m.cols()), {}};
+  rounded.ofColumns.tail(3).setConstant(kGroundWeight);
+  auto factors = factorise(std::move(m), rounded);
+  if (!factors) return factors.error();
+  std::string& arrays = factors->arrays;
   const std::vector<double> nm = fineWavelengths();
   std::vector<double> logs;
   for (const TurbidSky& each : skies)
@@ -130,7 +111,7 @@ Result<std::string> compactTable(const std::vector<TurbidSky>& skies,
       for (int e = 0; e < kSunNodes; ++e)
         logs.push_back(
             safeLog(radiometry::xyzvOf(nm, each.table.light(discElevation(e), 1, nm).sun)[c]));
-  append(logs, 1 / kSunStep);
+  packNumbers(logs, 1 / kSunStep, arrays);
   logs.clear();
   for (const TurbidSky& each : skies) {
     std::vector<radiometry::Xyzv> suns;
@@ -146,19 +127,17 @@ Result<std::string> compactTable(const std::vector<TurbidSky>& skies,
     for (int c = 0; c < 3; ++c)
       for (const radiometry::Xyzv& sun : suns) logs.push_back(safeLog(sun[c]));
   }
-  append(logs, 1 / kSunStep);
+  packNumbers(logs, 1 / kSunStep, arrays);
 
   const sky::ViewGrid& view = skies.front().table.view();
-  std::string header = fmt::format(
+  const std::string header = fmt::format(
       R"({{"turbidities":{},"logTurbidityStep":{},"suns":{},"above":{},"azimuths":{},)"
       R"("step":{},"weightSteps":[{:.6g}],"floor":{},"noHaze":{},"sunNodes":{},"sunStep":{},)"
-      R"("sunElevations":[{:.7f}]}})",
+      R"("sunElevations":[{:.7f}],"measured":{}}})",
       skies.size(), std::log(10.0) / 10, elevations.size(), view.above, view.azimuths, options.step,
-      fmt::join(weightSteps, ","), kFloor, kNoHaze, kSunNodes, kSunStep,
-      fmt::join(elevations, ","));
-  std::string out = "lambsky1";
-  for (int byte = 0; byte < 4; ++byte) out.push_back(char((header.size() >> (8 * byte)) & 0xff));
-  return out + header + arrays;
+      fmt::join(factors->weightSteps, ","), kFloor, kNoHaze, kSunNodes, kSunStep,
+      fmt::join(elevations, ","), measuredSkies());
+  return packedFile("lambsky1", header, arrays);
 }
 
 }  // namespace lambent::page

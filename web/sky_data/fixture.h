@@ -13,4 +13,9 @@ namespace lambent::page {
 /// is that of the dome and the coefficients, in 5 bands, are those of all.
 Result<std::string> skyFixture();
 
+/// JSON: {"directions": [[x, y, z], …] in the Sun's frame, "distances": [m, …], "airs": [{"turbidity",
+/// "sunElevation" (degrees), "extinction": [[r, g, b], …], "inScattered": [[r, g, b], …]} …]}: of the
+/// library's table, for each direction all distances.
+Result<std::string> airFixture();
+
 }  // namespace lambent::page

@@ -63,6 +63,7 @@ const synthesize = (output, ...more) => {
 const kinds = {
   "diffuse-1-channel": { make: (to) => bake("ball", to, "--albedo", "0.6,0.6,0.6") },
   "diffuse-3-channels-textured": { make: (to) => bake("matt", to) },
+  "diffuse-sharp-sun": { make: (to) => bake("matt", to, "--keep-shadowed"), sun: true },
   glossy: { make: (to) => bake("glossy", to) },
   texels: { make: (to) => bake("texel", to, "--texels", "sheet=48x40") },
   "mirror-caustic": { make: (to) => bake("mirror", to) },
@@ -90,6 +91,18 @@ const views = {
   },
 };
 
+/** Of an asset whose Sun throws sharp shadows. */
+const viewsOfSun = {
+  "under a sky and its Sun": {
+    lambent: "view",
+    version: 1,
+    object: { rotation: q(0, 1, 0, 30), translation: [0, 0, 0] },
+    environment: { source: "sky:sun-elevation=35,sun-azimuth=140" },
+    exposure: -5,
+    samples: 9,
+  },
+};
+
 /** Pixels that the asset covers: where pictures with and without it differ in their alpha. */
 function ownPixels(state, asset) {
   put("own.json", JSON.stringify({ ...state, background: false, tone: "linear", exposure: 20 }));
@@ -107,7 +120,7 @@ const fail = (what) => {
   ++failures;
   console.log(`  FAILED: ${what}`);
 };
-for (const [kind, { make, relief }] of Object.entries(kinds)) {
+for (const [kind, { make, relief, sun }] of Object.entries(kinds)) {
   if (chosen.length > 0 && !chosen.includes(kind)) continue;
   const asset = `${kind}.glb`;
   make(asset);
@@ -116,8 +129,8 @@ for (const [kind, { make, relief }] of Object.entries(kinds)) {
     viewport: { width: kSize, height: kSize },
   });
   await page.keyboard.press("h"); // the picture alone, as large as the window
-  for (const [name, state] of Object.entries(views)) {
-    const stem = `${kind}-${Object.keys(views).indexOf(name)}`;
+  for (const [i, [name, state]] of Object.entries({ ...views, ...(sun && viewsOfSun) }).entries()) {
+    const stem = `${kind}-${i}`;
     put(`${stem}.json`, JSON.stringify(state));
     const picture = (way) => decodePng(readFileSync(join(folder, `${stem}-${way}.png`)));
     const common = ["--view", `${stem}.json`, "--size", `${kSize}x${kSize}`, "--quiet"];

@@ -8,7 +8,9 @@
  * @packageDocumentation
  */
 export { LambentLoaderPlugin, type LambentLoaderOptions } from "./loader-plugin.js";
-export { LambentAsset, type AssetInfo, type AssetKind } from "./asset/asset.js";
+export { LambentAsset } from "./asset/asset.js";
+export type { AssetInfo, AssetKind } from "./asset/info.js";
+export type { AirOptions } from "./asset/asset-air.js";
 export type { TransferChoice } from "./asset/choices.js";
 export type { IncidentMode } from "./asset/relit-mesh.js";
 export { LambentFormatError } from "./format/description.js";
@@ -20,6 +22,7 @@ export {
   type Rgb,
   type WindowName,
 } from "./light/light.js";
+export { kLargestSun, sunOf, sunPoints, type SunPoint } from "./light/sun.js";
 export type { EquirectangularImage } from "./light/equirectangular.js";
 export { kMostDiscs, type Environment, type EnvironmentSky } from "./materials/environment-uniforms.js";
 export { EnvironmentBackground } from "./output/background.js";
@@ -40,4 +43,5 @@ export {
   type SunPosition,
 } from "./sky/sun_position.js";
 export { LambentSky, Sky, type SkyModel, type SkyRequest, type SkySun } from "./sky/sky.js";
+export { AerialPerspective, LambentAir, type AirBetween } from "./sky/air.js";
 export { hannWindow, lanczosWindow, minimalRingingWindow } from "./sh/window.js";

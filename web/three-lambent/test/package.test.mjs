@@ -27,7 +27,7 @@ describe("the package", () => {
     for (const path of ["README.md", "LICENSE", "package.json", "dist/index.js", "dist/index.d.ts"])
       assert.ok(paths.includes(path), `${path} is missing`);
     for (const path of paths)
-      assert.match(path, /^(README\.md|LICENSE|package\.json|data\/sky\.bin|dist\/[\w/-]+\.(js|d\.ts))$/, path);
+      assert.match(path, /^(README\.md|LICENSE|package\.json|data\/(air|sky)\.bin|dist\/[\w/-]+\.(js|d\.ts))$/, path);
     for (const path of paths.filter((p) => p.endsWith(".js")))
       assert.ok(paths.includes(path.replace(/\.js$/, ".d.ts")), `${path} has no types`);
   });

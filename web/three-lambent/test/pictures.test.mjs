@@ -51,6 +51,8 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       lambent(folder, "bake", `${scene}-scene.glb`, "-o", `${output}.glb`, ...quick, ...more);
     bake("matt", "matt");
     bake("matt", "matt-shadowed", "--transfer", "shadowed", "--bands", 4);
+    bake("matt", "matt-kept", "--keep-shadowed");
+    bake("texel", "texel-kept", "--texels", "sheet=48x40", "--keep-shadowed");
     bake("glossy", "glossy");
     bake(
       "glossy",
@@ -308,6 +310,57 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       },
       "environment.exr+disc:30,50,40,3/2/1",
     ));
+
+  // A small bright disc, through a map of its shadows. Borders of shadows differ by parts of a texel.
+  const sunAt = (azimuth, elevation, diameter = 0.53) => ({
+    source: `environment.exr+disc:${azimuth},${elevation},${diameter},160000/144000/120000`,
+    disc: {
+      direction: {
+        x: Math.cos(azimuth * kDegree) * Math.cos(elevation * kDegree),
+        y: Math.sin(elevation * kDegree),
+        z: Math.sin(azimuth * kDegree) * Math.cos(elevation * kDegree),
+      },
+      diameter: diameter * kDegree,
+      radiance: [160000, 144000, 120000],
+    },
+  });
+  for (const [name, asset, azimuth, elevation, options, choices] of [
+    ["high", "matt-kept.glb", 30, 70],
+    ["low", "matt-kept.glb", -60, 12],
+    ["shadowed", "matt-shadowed.glb", 140, 35],
+    ["kept-shadowed", "matt-kept.glb", 30, 40, ["--transfer", "shadowed"], { transfer: "shadowed" }],
+    ["unshadowed", "matt-unshadowed.glb", 30, 40],
+    ["texels", "texel-kept.glb", 100, 50],
+    ["soft", "matt-kept.glb", 30, 40, ["--sun-shadow", "soft"], {}],
+  ])
+    it(`the Sun's sharp shadow: ${name}`, async () => {
+      const { source, disc } = sunAt(azimuth, elevation);
+      const state = { discs: [disc], sharpSun: name !== "soft", asset_: choices, exposure: -3 };
+      const more = ["--exposure", -3, ...(options ?? [])];
+      const found = await agree(`sun-${name}`, asset, more, state, source);
+      // What is beside it: without it, and with its harmonics alone.
+      const other = await browser.page.evaluate((s) => window.compare(s), {
+        ...{ asset, truth: `truth-sun-${name}.png`, size: kSize, background: true },
+        ...{ environment: "environment.exr", ...state, sharpSun: !state.sharpSun },
+      });
+      const apart = name === "unshadowed" ? 0.2 : 1; // where nothing is hidden little is
+      assert.ok(other.own > 5 * found.own && other.own > apart, `soft and sharp are ${other.own}/255 apart`);
+    });
+
+  it("the Sun's sharp shadow, the object turned and moved", () => {
+    const { source, disc } = sunAt(30, 40);
+    // The tool turns the light; here the object is turned the other way, and the Sun is the world's.
+    return agree(
+      "sun-moved",
+      "matt-kept.glb",
+      ["--rotate-y", -50, "--exposure", -3],
+      {
+        ...{ discs: [disc], sharpSun: true, exposure: -3 },
+        ...{ objectRotation: aboutY(50), objectTranslation: [3, -1, 2] },
+      },
+      source,
+    );
+  });
 
   // Beside and upon each other, a sun, half of the sphere, and all of it.
   for (const turn of [0, 70])

@@ -34,13 +34,22 @@ export function facts(viewer: Viewer, environment: number): PanelFacts {
     disc: viewer.disc,
     playing: viewer.playing,
     unlit: viewer.unlit,
-    sky: { problem: viewer.skyProblem, follows: viewer.follows },
+    sky: {
+      problem: viewer.skyProblem,
+      follows: viewer.follows,
+      air: viewer.airShown ? viewer.air : null,
+      noShafts: viewer.view.sunShadow === "sharp" ? null : "They take a sharp shadow of the Sun.",
+    },
     info:
       asset === undefined
         ? "Drop a .glb that lambent bake wrote."
         : `${count(asset.info.vertices)} vertices, ${count(asset.info.receivers)} receivers of ` +
           `${asset.info.bands} bands, ${bytes(loaded!.bytes)}`,
     noTransfer,
+    noSharpSun:
+      asset === undefined || asset.offersSharpSun
+        ? null
+        : "The Sun's shadow stays soft: bake with --keep-shadowed to make it sharp.",
     noPatch: kinds?.has("bi-scale") ? null : "No meso-structure on this asset.",
     noLobe: kinds?.has("glossy") ? null : "No glossy surface on this asset.",
   };

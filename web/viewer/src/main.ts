@@ -9,6 +9,7 @@ import { progressiveRead } from "./read_url";
 import { facts } from "./facts";
 import { save } from "./save";
 import type { SkySettings } from "./sky_source";
+import type { AirSettings } from "./stage";
 import { parseView, viewToJson } from "./view_state";
 import { Viewer } from "./viewer";
 
@@ -76,6 +77,7 @@ function start(): void {
     chooseDisc: (index: number) => viewer.chooseDisc(index),
     showSky: (settings: SkySettings | null) => void viewer.showSky(settings),
     followSky: (on: boolean) => viewer.followSky(on),
+    showAir: (on: boolean, part?: Partial<AirSettings>) => void viewer.showAir(on, part),
     frame: () => viewer.frame(),
     reset: () => viewer.reset(),
     play: (on: boolean) => viewer.play(on),

@@ -39,6 +39,7 @@ export interface PanelFacts {
   info: string;
   /** Why a choice shows nothing of its own; null where it does. */
   noTransfer: Record<TransferChoice, string | null>;
+  noSharpSun: string | null;
   noPatch: string | null;
   noLobe: string | null;
 }
@@ -209,6 +210,9 @@ export class Panel {
       (choice) => actions.change((view) => (view.transfer = choice)),
     );
     const reasons = h("p", { class: "reason" });
+    const sun = toggle("Sharp shadow of the Sun",
+      "A small disc of light shows through a map of its shadows, not as harmonics have it",
+      (on) => actions.change((view) => (view.sunShadow = on ? "sharp" : "soft")));
     const macro = toggle("Macro-scale shadows",
       "What the shape as a whole does to the light on meso-structure (M)",
       (on) => actions.change((view) => (view.macro = on)));
@@ -232,12 +236,14 @@ export class Panel {
       for (const choice of Object.keys(facts.noTransfer) as TransferChoice[])
         transfer.forbid(choice, facts.noTransfer[choice]);
       const said = new Set(
-        [...Object.values(facts.noTransfer), facts.noPatch, facts.noLobe].filter(
+        [...Object.values(facts.noTransfer), facts.noSharpSun, facts.noPatch, facts.noLobe].filter(
           (each) => each !== null,
         ),
       );
       reasons.textContent = [...said].join(" ");
       reasons.hidden = said.size === 0;
+      sun.set(view.sunShadow === "sharp");
+      sun.forbid(facts.noSharpSun);
       macro.set(view.macro);
       macro.forbid(facts.noPatch);
       views.set(view.viewDependent);
@@ -248,7 +254,7 @@ export class Panel {
       lobe.element.hidden = view.lobe === null;
       unlit.set(facts.unlit);
     });
-    return this.section("Transport", transfer.element, macro.element, views.element,
+    return this.section("Transport", transfer.element, sun.element, macro.element, views.element,
       ownLobe.element, lobe.element, unlit.element, reasons);
   }
 

@@ -11,12 +11,15 @@ import {
   type SkyMoment,
   type SkySettings,
 } from "./sky_source";
+import type { AirSettings } from "./stage";
 import type { ViewState } from "./view_state";
 
 export interface SkyActions {
   /** Shows a sky in place of the environment; null: the environment that was there before. */
   showSky(settings: SkySettings | null): void;
   followSky(on: boolean): void;
+  /** Shows the asset through the sky's air, or not; with what has changed of how. */
+  showAir(on: boolean, part?: Partial<AirSettings>): void;
 }
 
 /** What the controls show besides the view. */
@@ -25,6 +28,10 @@ export interface SkyFacts {
   problem: string | null;
   /** Whether the exposure follows. */
   follows: boolean;
+  /** null: it is not shown. */
+  air: AirSettings | null;
+  /** Why there are no shafts of light; null if there can be. */
+  noShafts: string | null;
 }
 
 /** Degrees, and hours of standard time ahead of UTC. */
@@ -50,6 +57,8 @@ const kNight = -18;
 const kModels: readonly [SkyModel, string][] = [
   ["fast", "Simulated, clear"],
   ["preetham", "Preetham"],
+  ["perez", "Perez"],
+  ["asrc-cie", "ASRC-CIE"],
   ["cie-clear", "CIE clear"],
   ["cie-overcast", "CIE overcast"],
 ];
@@ -96,6 +105,7 @@ export class SkyControls {
   private dayWords = "";
   private readonly set: (() => void)[] = [];
   private readonly rest: HTMLElement[];
+  private setAir: (facts: SkyFacts) => void = () => {};
   private readonly on;
   private readonly follow;
   private readonly strip = h("div", { class: "day", "aria-hidden": "true" });
@@ -108,7 +118,9 @@ export class SkyControls {
       (on) => actions.followSky(on));
     const models = select("Model", (index) => {
       const model = kModels[index]?.[0];
-      if (model !== undefined) this.change({ model });
+      // What was measured is of the model that it was measured for.
+      if (model !== undefined)
+        this.change({ model, directNormal: undefined, diffuseHorizontal: undefined });
     });
     const places = select("Place", (index) => {
       const place = kPlaces[index];
@@ -135,6 +147,7 @@ export class SkyControls {
     };
     const side = (positive: string, negative: string) => (value: number) =>
       `${Math.abs(value).toFixed(2)}° ${value < 0 ? negative : positive}`;
+    const air = this.airControls();
     const turbidity = slider({
       label: "Turbidity",
       min: 1, max: 10, step: 0.1,
@@ -168,8 +181,33 @@ export class SkyControls {
       models.element,
       turbidity.element,
       this.follow.element,
+      ...air,
     ];
     this.element = h("div", { class: "sky-controls" }, this.on.element, ...this.rest);
+  }
+
+  private airControls(): HTMLElement[] {
+    const { actions } = this;
+    const on = toggle("Seen through the air", "What is far away pales (lambent render --air)", (on) =>
+      actions.showAir(on));
+    const metres = slider({
+      label: "Metres in one unit",
+      min: 0, max: 5, step: 0.1,
+      format: (value) => Number((10 ** value).toPrecision(2)).toLocaleString("en"),
+      change: (value) => actions.showAir(true, { metresPerUnit: Number((10 ** value).toPrecision(2)) }),
+    });
+    const shafts = toggle("Shafts of light",
+      "What throws a sharp shadow of the Sun throws it into the air as well",
+      (on) => actions.showAir(true, { shafts: on }));
+    this.setAir = ({ air, noShafts }) => {
+      on.set(air !== null);
+      metres.element.hidden = shafts.element.hidden = air === null;
+      if (air === null) return;
+      metres.set(Math.log10(air.metresPerUnit));
+      shafts.set(air.shafts);
+      shafts.forbid(noShafts);
+    };
+    return [on.element, metres.element, shafts.element];
   }
 
   show(view: ViewState, facts: SkyFacts): void {
@@ -181,6 +219,7 @@ export class SkyControls {
     this.strip.hidden = shown === null || !isMoment(this.settings.sun);
     if (shown === null) return;
     for (const set of this.set) set();
+    this.setAir(facts);
     this.words.textContent = facts.problem ?? this.sayWhere();
   }
 

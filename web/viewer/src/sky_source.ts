@@ -24,6 +24,9 @@ export interface SkySettings {
   sun: SkyMoment | SunPlace;
   model: SkyModel;
   turbidity: number;
+  /** W m⁻², as measured: of perez and asrc-cie alone. */
+  directNormal?: number;
+  diffuseHorizontal?: number;
 }
 
 export const isMoment = (sun: SkyMoment | SunPlace): sun is SkyMoment => "date" in sun;
@@ -31,9 +34,8 @@ export const isMoment = (sun: SkyMoment | SunPlace): sun is SkyMoment => "date" 
 /** What the tool takes unless it is told. */
 export const kClearTurbidity = 2.5;
 
-const kOthers = ["albedo", "altitude", "atmosphere", "diffuse-horizontal", "direct-normal", "ozone",
-  "refine"];
-const kModels = "fast, preetham, cie-clear, cie-overcast, and cie:1 to cie:15";
+const kOthers = ["albedo", "altitude", "atmosphere", "ozone", "refine"];
+const kModels = "fast, preetham, perez, asrc-cie, cie-clear, cie-overcast, and cie:1 to cie:15";
 const kElsewhere = "the native viewer (lambent view) and lambent render do";
 
 function numberOf(text: string, least: number, most: number, unit: string): number {
@@ -72,10 +74,13 @@ function offsetOf(text: string): number {
 }
 
 function modelOf(text: string): SkyModel {
-  if (/^(fast|preetham|cie-clear|cie-overcast|cie:([1-9]|1[0-5]))$/.test(text))
+  if (/^(fast|preetham|perez|asrc-cie|cie-clear|cie-overcast|cie:([1-9]|1[0-5]))$/.test(text))
     return text as SkyModel;
-  if (/^(exact|perez|asrc-cie)$/.test(text))
-    throw new Error(`this page has not the model ${text}: ${kElsewhere}; here there are ${kModels}`);
+  if (text === "exact")
+    throw new Error(
+      `this page has not the model exact, which marches through the air: ${kElsewhere}; nearest to it ` +
+        "here is fast",
+    );
   throw new Error(`'${text}' is no model; this page has ${kModels}`);
 }
 
@@ -111,12 +116,19 @@ export function parseSky(text: string): SkySettings {
   const azimuth = at("sun-azimuth", (v) => numberOf(v, -360, 360, " degrees"));
   const model = at("model", modelOf) ?? "fast";
   const turbidity = at("turbidity", (v) => numberOf(v, 1, 10, "")) ?? kClearTurbidity;
+  const irradiance = (v: string) => numberOf(v, 0, 2000, " W/m²");
+  const measured = {
+    directNormal: at("direct-normal", irradiance),
+    diffuseHorizontal: at("diffuse-horizontal", irradiance),
+  };
+  if (Object.values(measured).some((each) => each !== undefined) && !/^(perez|asrc-cie)$/.test(model))
+    throw new Error(`direct-normal and diffuse-horizontal are of the models perez and asrc-cie`);
   for (const key of given.keys())
     throw new Error(
       kOthers.includes(key)
         ? `this page knows no ${key}: ${kElsewhere}`
         : `there is no key '${key}'; this page knows date, time, utc-offset, lat, lon, ` +
-          "sun-elevation, sun-azimuth, model and turbidity",
+          "sun-elevation, sun-azimuth, model, turbidity, direct-normal and diffuse-horizontal",
     );
   const moment = [date, minutes, latitude, longitude];
   if (moment.every((each) => each === undefined)) {
@@ -124,7 +136,7 @@ export function parseSky(text: string): SkySettings {
       throw new Error(
         "where the Sun stands is missing: give sun-elevation, or date, time, lat and lon",
       );
-    return { sun: { elevation, azimuth: azimuth ?? 180 }, model, turbidity };
+    return { sun: { elevation, azimuth: azimuth ?? 180 }, model, turbidity, ...measured };
   }
   if (elevation !== undefined || azimuth !== undefined)
     throw new Error(
@@ -147,6 +159,7 @@ export function parseSky(text: string): SkySettings {
     },
     model,
     turbidity,
+    ...measured,
   };
 }
 
@@ -159,29 +172,35 @@ export function clock(minutes: number): string {
 }
 
 /** The SOURCE, as the tool takes it. */
-export function skySource({ sun, model, turbidity }: SkySettings): string {
-  const where = isMoment(sun)
-    ? `date=${sun.date},time=${clock(sun.minutes)},utc-offset=${sun.utcOffset},` +
-      `lat=${sun.latitude},lon=${sun.longitude}`
-    : `sun-elevation=${sun.elevation},sun-azimuth=${sun.azimuth}`;
-  const haze = turbidity === kClearTurbidity ? "" : `,turbidity=${turbidity}`;
-  return `sky:${where}${model === "fast" ? "" : `,model=${model}`}${haze}`;
+export function skySource(settings: SkySettings): string {
+  const { sun, model, turbidity, directNormal, diffuseHorizontal } = settings;
+  const keys: Record<string, string | number | undefined> = {
+    ...(isMoment(sun)
+      ? {
+          date: sun.date,
+          time: clock(sun.minutes),
+          "utc-offset": sun.utcOffset,
+          lat: sun.latitude,
+          lon: sun.longitude,
+        }
+      : { "sun-elevation": sun.elevation, "sun-azimuth": sun.azimuth }),
+    model: model === "fast" ? undefined : model,
+    turbidity: turbidity === kClearTurbidity ? undefined : turbidity,
+    "direct-normal": directNormal,
+    "diffuse-horizontal": diffuseHorizontal,
+  };
+  const given = Object.entries(keys).filter(([, value]) => value !== undefined);
+  return `sky:${given.map(([key, value]) => `${key}=${value}`).join(",")}`;
 }
 
-export function requestOf({ sun, model, turbidity }: SkySettings): SkyRequest {
+export function requestOf({ sun, ...rest }: SkySettings): SkyRequest {
   if (!isMoment(sun))
-    return {
-      sunElevation: sun.elevation * kRadians,
-      sunAzimuth: sun.azimuth * kRadians,
-      model,
-      turbidity,
-    };
+    return { ...rest, sunElevation: sun.elevation * kRadians, sunAzimuth: sun.azimuth * kRadians };
   return {
+    ...rest,
     date: Date.parse(`${sun.date}T00:00:00Z`) + 60000 * (sun.minutes - 60 * sun.utcOffset),
     latitude: sun.latitude * kRadians,
     longitude: sun.longitude * kRadians,
-    model,
-    turbidity,
   };
 }
 

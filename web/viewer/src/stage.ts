@@ -17,10 +17,14 @@ import {
   EnvironmentBackground,
   LambentLight,
   ToneMapper,
+  type AerialPerspective,
+  type LambentAir,
+  type Sky,
   fitClipping,
   frameAutomatically,
   kMostDiscs,
   subpixelPositions,
+  sunOf,
   type DirectionLike,
   type Disc,
   type Environment,
@@ -34,12 +38,20 @@ import type { LookAt, Triple, ViewState } from "./view_state";
 /** Frames of a new picture that are added up before they take the place of the last one. */
 const kFirstShown = 4;
 
+/** How the air of the environment's sky is shown. */
+export interface AirSettings {
+  metresPerUnit: number;
+  shafts: boolean;
+}
+
 export class Stage {
   readonly renderer: WebGLRenderer;
   /** Whether 32-bit textures can be filtered. */
   readonly floatTextures: boolean;
   loaded: LoadedAsset | null = null;
   environment: LoadedEnvironment | null = null;
+  /** What air is made with; null: the page has not fetched it. */
+  air: LambentAir | null = null;
 
   private readonly scene = new Scene();
   private readonly perspective = new PerspectiveCamera();
@@ -49,6 +61,7 @@ export class Stage {
   private readonly accumulator: Accumulator;
   private size = new Vector2(1, 1);
   private light = new LambentLight(1);
+  private shownAir: { sky: Sky; air: AerialPerspective } | null = null;
   // Found by a look at every vertex: once for an asset, not once a frame.
   private measured: { diagonal: number; centre: Vector3 } | null = null;
   private framed: { aspect: number; camera: LookAt } | null = null;
@@ -87,6 +100,7 @@ export class Stage {
 
   setAsset(loaded: LoadedAsset | null): void {
     if (this.loaded !== null) {
+      this.background.setAsset(null);
       this.scene.remove(this.loaded.asset.root);
       this.loaded.asset.dispose();
     }
@@ -97,6 +111,7 @@ export class Stage {
   setEnvironment(environment: LoadedEnvironment | null): void {
     if (this.environment !== environment) this.environment?.dispose();
     this.environment = environment;
+    if (this.shownAir && this.shownAir.sky !== environment?.sky) this.dropAir();
   }
 
   /** Length of the asset's bounding box's diagonal, metres, and its middle in its own frame. */
@@ -144,7 +159,7 @@ export class Stage {
   }
 
   /** What a view says about the object and its light. Costs no time that grows with the asset. */
-  apply(view: ViewState, unlit = false): void {
+  apply(view: ViewState, unlit = false, air: AirSettings | null = null): void {
     this.tone.exposure = view.exposure;
     this.tone.curve = view.tone;
     const discs: Disc[] = view.discs.map((disc) => ({
@@ -157,24 +172,26 @@ export class Stage {
     this.light =
       this.environment?.light(bands).clone().rotate(turn) ?? new LambentLight(bands);
     for (const disc of discs) this.light.addDisc(disc);
-    this.light.window(
+    const weights = this.light.windowWeights(
       view.window === "hann" || view.window === "lanczos" ? `${view.window}:${bands}` : view.window,
     );
+    this.light.attenuate(weights);
 
     const turned = ({ x, y, z }: DirectionLike) => new Vector3(x, y, z).applyQuaternion(turn);
     const dome = this.environment?.sky?.dome;
+    const allDiscs = [
+      ...(this.environment?.discs ?? []).map((disc) => ({
+        ...disc,
+        direction: turned(disc.direction),
+        ...(disc.horizon && { horizon: { ...disc.horizon, up: turned(disc.horizon.up) } }),
+      })),
+      ...discs,
+    ];
     const seen: Environment = {
       texture: this.environment?.texture ?? null,
       rotation: turn,
       uniform: this.environment?.uniform ?? [0, 0, 0],
-      discs: [
-        ...(this.environment?.discs ?? []).map((disc) => ({
-          ...disc,
-          direction: turned(disc.direction),
-          ...(disc.horizon && { horizon: { ...disc.horizon, up: turned(disc.horizon.up) } }),
-        })),
-        ...discs,
-      ].slice(0, kMostDiscs),
+      discs: allDiscs.slice(0, kMostDiscs),
       sky: dome
         ? { ...dome, rotation: turn.clone().multiply(new Quaternion().copy(dome.rotation as Quaternion)) }
         : null,
@@ -192,7 +209,22 @@ export class Stage {
     asset.lobeExponent = view.lobe;
     asset.unlit = unlit;
     asset.setLight(this.light);
+    asset.setSun(view.sunShadow === "sharp" ? sunOf(allDiscs) : null, weights);
     asset.setEnvironment(seen);
+    asset.setAir(air && this.airOfSky(), { ...air, rotation: turn });
+    this.background.setAsset(asset);
+  }
+
+  private airOfSky(): AerialPerspective | null {
+    const sky = this.environment?.sky;
+    if (!sky || !this.air) return null;
+    this.shownAir ??= { sky, air: this.air.under(sky) };
+    return this.shownAir.air;
+  }
+  private dropAir(): void {
+    this.loaded?.asset.setAir(null);
+    this.shownAir?.air.dispose();
+    this.shownAir = null;
   }
 
   private cameraOf(look: LookAt): PerspectiveCamera | OrthographicCamera {
@@ -218,7 +250,8 @@ export class Stage {
     camera.setViewOffset(width, height, place[0] - 0.5, place[1] - 0.5, width, height);
     if (this.loaded !== null) {
       this.loaded.asset.samples = samples;
-      this.loaded.asset.update(this.renderer);
+      this.loaded.asset.sample = this.accumulator.count;
+      this.loaded.asset.update(this.renderer, camera);
     }
     this.renderer.setRenderTarget(this.accumulator.frame);
     this.renderer.clear();
@@ -279,6 +312,7 @@ export class Stage {
   }
 
   dispose(): void {
+    this.background.setAsset(null);
     this.setAsset(null);
     this.setEnvironment(null);
     this.background.dispose();

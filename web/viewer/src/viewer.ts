@@ -11,7 +11,8 @@ import { LoadingBar, Messages } from "./messages";
 import { orbit, pan, turnEnvironment, turnObject, zoom, type Grip } from "./orbit";
 import { SkyMap } from "./sky_map";
 import { skySource, type SkySettings } from "./sky_source";
-import { Stage } from "./stage";
+import { airs } from "./skies";
+import { Stage, type AirSettings } from "./stage";
 import {
   defaultView,
   parseView,
@@ -49,6 +50,9 @@ export class Viewer {
   grip: Grip = "camera";
   playing = false;
   unlit = false;
+  /** The air of the sky, as the controls have it; whether it is shown. Not part of a view. */
+  air: AirSettings = { metresPerUnit: 1, shafts: false };
+  airShown = false;
   /** Whether the exposure follows the sky, and why the last one that was wanted is not shown. */
   follows = true;
   skyProblem: string | null = null;
@@ -224,6 +228,18 @@ export class Viewer {
       this.skyProblem = text.replace(/^LambentSky: /, "");
       this.changed();
     }
+  }
+  /** Things are seen through the air of the sky: once its data is there. */
+  async showAir(on: boolean, part: Partial<AirSettings> = {}): Promise<void> {
+    this.air = { ...this.air, ...part };
+    this.airShown = on;
+    try {
+      if (on) this.stage.air = await airs();
+    } catch (error) {
+      this.airShown = false;
+      this.messages.error(error instanceof Error ? error.message : String(error));
+    }
+    this.touch();
   }
   followSky(on: boolean): void {
     this.follows = on;
@@ -443,7 +459,7 @@ export class Viewer {
     const began = performance.now();
     if (this.moved) {
       this.moved = false;
-      this.stage.apply(this.view, this.unlit);
+      this.stage.apply(this.view, this.unlit, this.airShown ? this.air : null);
       this.stage.drawMoving(this.camera());
       this.graph.add(now, performance.now() - began);
     } else if (!this.done && began - this.lastChange >= kStillAfter) {
@@ -474,7 +490,9 @@ export class Viewer {
   private async restore(): Promise<void> {
     const environment = this.stage.environment?.source ?? this.view.environment.source;
     this.stage.dispose();
+    const { air } = this.stage;
     this.stage = new Stage(this.canvas);
+    this.stage.air = air;
     this.stage.setSize(this.canvas.width, this.canvas.height);
     this.lost = false;
     const view = structuredClone(this.view);

@@ -4,6 +4,7 @@ import {
   Quaternion,
   Texture,
   Vector3,
+  type Camera,
   type Material,
   type Mesh,
   type Object3D,
@@ -12,33 +13,16 @@ import {
 import type { AssetDescription } from "../format/description.js";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { RttTexture } from "../gpu/rtt-texture.js";
-import type { LambentLight, QuaternionLike } from "../light/light.js";
+import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
+import type { AerialPerspective } from "../sky/air.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
+import { infoOf, kindsOf, type AssetInfo, type AssetKind } from "./info.js";
+import { AssetAir, type AirOptions } from "./asset-air.js";
 import { offers, type TransferChoice } from "./choices.js";
 import type { Reflectance } from "./reflectance.js";
-import { RelitMesh, type Choices, type IncidentMode } from "./relit-mesh.js";
-
-/** Kinds of surfaces that an asset may have. */
-export type AssetKind = "diffuse" | "glossy" | "texels" | "mirror" | "bi-scale";
-
-/** What an asset says about itself. */
-export interface AssetInfo {
-  /** Of the format. */
-  version: string;
-  generator: string;
-  /** What was simulated: "unshadowed", "shadowed" or "interreflected". */
-  transfer: string;
-  /** Bands of light that relight it. */
-  bands: number;
-  directions: number;
-  bounces: number;
-  vertices: number;
-  triangles: number;
-  receivers: number;
-  /** Bytes of transfer, RTTs and id maps in the file. */
-  transferBytes: number;
-}
+import { RelitMesh, type Choices, type IncidentMode, type Lights } from "./relit-mesh.js";
+import { kindWithoutBounces, SharpSun, sunNotes } from "./sharp-sun.js";
 
 /** A mesh as the loader made it, with what the file says of it. */
 export interface MeshEntry {
@@ -75,15 +59,21 @@ export class LambentAsset {
   unlit = false;
   /** Pictures of a pixel that the caller adds up: filters are as much narrower. Default 1. */
   samples = 1;
+  /** Which of them the next one is, from 0: each sees the Sun from a point of its own. Default 0. */
+  sample = 0;
 
   private readonly description: AssetDescription;
   private readonly relit: RelitMesh[];
   private readonly environment = new EnvironmentUniforms();
+  /** @internal */
+  readonly air = new AssetAir();
   private readonly screen = new FullScreenPass();
   private readonly rtts = new Map<number, RttTexture>();
   private light: LambentLight | null = null;
   private readonly rotation: HarmonicRotation;
   private readonly assetLight: Float64Array;
+  private readonly sunShare: Float64Array;
+  private readonly sun: SharpSun;
   private done = "";
   private lost: { canvas: EventTarget; listener: () => void } | null = null;
 
@@ -98,16 +88,20 @@ export class LambentAsset {
     this.description = description;
     this.rotation = new HarmonicRotation(description.bands);
     this.assetLight = new Float64Array(3 * description.bands ** 2);
+    this.sunShare = new Float64Array(3 * description.bands ** 2);
     const shared = {
       description,
       incident,
       environment: this.environment,
+      air: this.air.uniforms,
       rtt: (index: number) => this.rtt(index),
     };
     this.relit = entries.map(
       ({ mesh, key, reflectance }) =>
         new RelitMesh(mesh, description.primitives.get(key) ?? null, reflectance, shared),
     );
+    this.sun = new SharpSun(this.relit);
+    for (const mesh of this.relit) mesh.sunUniforms = this.sun.uniforms;
     this.kinds = kindsOf(this.relit);
     this.info = infoOf(description, this.relit);
     assets.set(root, this);
@@ -140,6 +134,44 @@ export class LambentAsset {
     this.done = "";
   }
 
+  /**
+   * The Sun of setLight's light whose shadows are to be sharp: a disc of at most 5° that the light
+   * holds, in the world (`sky.sun.disc`, or what {@link sunOf} finds). Diffuse surfaces then show
+   * M L without what shadowed transfer makes of the disc's harmonics, and the disc itself through a
+   * map of what hides it: what the asset shows shadowed or unshadowed, or holds shadowed beside
+   * interreflected ({@link sunNotes} says where it does not). Only the asset's own meshes throw
+   * shadows, and onto each other. null: all light is as the harmonics have it, as it is by default.
+   *
+   * @param weights what every band of the light was multiplied with: `light.windowWeights()`
+   * @throws RangeError for a larger disc
+   */
+  setSun(sun: Disc | null, weights: ArrayLike<number> = []): void {
+    this.sun.set(sun, weights);
+    this.done = "";
+  }
+
+  /** Whether any surface can show a sharp Sun, whatever is chosen. */
+  get offersSharpSun(): boolean {
+    return this.relit.some(
+      ({ transfer }) => transfer && kindWithoutBounces(this.description, transfer, "best"),
+    );
+  }
+
+  /** What of the asset a sharp Sun does not reach as it is shown, in words with the remedy. */
+  sunNotes(): string[] {
+    return sunNotes(this.description, this.relit, this.transfer);
+  }
+
+  /**
+   * The air that the asset is seen through by perspective cameras; null: none, as it is by default.
+   * What else is in the scene is not seen through it.
+   *
+   * @throws RangeError for metres that are none
+   */
+  setAir(air: AerialPerspective | null, options: AirOptions = {}): void {
+    this.air.set(air, options);
+  }
+
   /** What mirrors show; null: black. */
   setEnvironment(environment: Environment | null): void {
     this.environment.set(environment);
@@ -153,12 +185,15 @@ export class LambentAsset {
   /**
    * Relights, if the light, a choice or the root's rotation has changed since the last call: turns
    * the light's coefficients into the asset's frame, and applies the transfer to them on the GPU.
-   * No CPU time that grows with the asset, once a choice has been uploaded.
+   * No CPU time that grows with the asset, once a choice has been uploaded. Under a sharp Sun it
+   * also draws the map of its shadows, if that is not there yet.
    *
+   * @param camera what will be drawn with: the map of the Sun's shadows then covers what it sees
+   *   alone, and is as much finer. Without it all of the asset.
    * @returns whether something was relit
    * @throws Error if the asset is too large for the device's textures
    */
-  update(renderer: WebGLRenderer): boolean {
+  update(renderer: WebGLRenderer, camera?: Camera): boolean {
     this.follow(renderer);
     const choices: Choices = {
       transfer: this.transfer,
@@ -168,10 +203,13 @@ export class LambentAsset {
       lobeExponent: this.lobeExponent,
       unlit: this.unlit,
       samples: this.samples,
+      sun: this.sun.shines,
+      air: !this.air.wanted ? "none" : this.throwsShafts ? "shafts" : "air",
     };
     let due = false;
     for (const mesh of this.relit) due = mesh.prepare(renderer, choices) || due;
     this.root.updateWorldMatrix(true, false);
+    if (!this.unlit) this.look(renderer, camera);
     this.root.matrixWorld.decompose(translation, rotation, scale);
     const { light } = this;
     const state = [
@@ -183,17 +221,38 @@ export class LambentAsset {
       rotation.w,
     ].join();
     if (this.unlit || (!due && state === this.done)) return false;
-    this.assetLight.fill(0);
-    if (light) {
-      const bands = Math.min(light.bands, this.description.bands);
-      this.rotation
-        .set(matrixOfQuaternion(rotation.invert()))
-        .apply(light.coefficients, this.assetLight, bands, 3);
-    }
+    const lights = this.turnLight(light, rotation.invert());
     for (const mesh of this.relit)
-      mesh.relight(renderer, this.screen, this.assetLight, this.lobeExponent);
+      mesh.relight(renderer, this.screen, lights, this.lobeExponent);
     this.done = state;
     return true;
+  }
+
+  /** Into the asset's frame: all of the light, the Sun's share of it, and the rest. */
+  private turnLight(light: LambentLight | null, assetFromWorld: Quaternion): Lights {
+    const { assetLight: whole, sunShare: sun } = this;
+    whole.fill(0);
+    sun.fill(0);
+    if (light) {
+      const bands = Math.min(light.bands, this.description.bands);
+      this.rotation.set(matrixOfQuaternion(assetFromWorld));
+      this.rotation.apply(light.coefficients, whole, bands, 3);
+      if (this.sun.shines) this.rotation.apply(this.sun.share(bands).coefficients, sun, bands, 3);
+    }
+    return { whole, sun, withoutSun: whole.map((value, i) => value - sun[i]) };
+  }
+
+  /** @internal Shafts of light are wanted, and there is a Sun to throw them. */
+  get throwsShafts(): boolean {
+    return this.air.shafts && this.sun.shines;
+  }
+
+  private look(renderer: WebGLRenderer, camera: Camera | undefined): void {
+    const shafts = this.throwsShafts;
+    const hides = shafts || this.relit.some((mesh) => mesh.needsSunMap);
+    this.sun.look(renderer, this.root, camera, [this.sample, this.samples], hides);
+    this.air.look(this.root);
+    if (shafts) this.air.lookForShafts(this.root, camera, this.sun.map.bounds, this.sun.map);
   }
 
   private rtt(index: number): RttTexture {
@@ -213,6 +272,7 @@ export class LambentAsset {
       for (const mesh of this.relit) mesh.forget();
       for (const rtt of this.rtts.values()) rtt.dispose();
       this.rtts.clear();
+      this.sun.map.forget();
       this.done = "";
     };
     if (this.lost) {
@@ -234,6 +294,7 @@ export class LambentAsset {
     for (const rtt of this.rtts.values()) rtt.dispose();
     this.rtts.clear();
     this.environment.dispose();
+    this.sun.map.dispose();
     this.screen.dispose();
     this.root.removeFromParent();
     assets.delete(this.root);
@@ -253,43 +314,4 @@ function disposeMaterial(material: Material): void {
     image?.close?.();
   }
   material.dispose();
-}
-
-function kindsOf(meshes: readonly RelitMesh[]): Set<AssetKind> {
-  const kinds = new Set<AssetKind>();
-  for (const { transfer, isMirror } of meshes) {
-    if (isMirror) kinds.add("mirror");
-    else if (transfer?.biScale) kinds.add("bi-scale");
-    if (transfer?.vectors) kinds.add("diffuse");
-    if (transfer?.matrices) kinds.add("glossy");
-    if (transfer?.grid) kinds.add("texels");
-  }
-  return kinds;
-}
-
-function infoOf(description: AssetDescription, meshes: readonly RelitMesh[]): AssetInfo {
-  let [vertices, triangles, receivers, transferBytes] = [0, 0, 0, 0];
-  for (const { mesh, transfer } of meshes) {
-    const { index } = mesh.geometry;
-    const { count } = mesh.geometry.getAttribute("position");
-    vertices += count;
-    triangles += (index ? index.count : count) / 3;
-    receivers += transfer?.receivers ?? 0;
-    const blocks = [
-      transfer?.vectors?.numbers,
-      transfer?.matrices?.numbers,
-      transfer?.shadowed?.vectors?.numbers,
-      transfer?.shadowed?.matrices?.numbers,
-      transfer?.biScale?.shadowed?.numbers,
-      transfer?.biScale?.interreflected?.numbers,
-    ];
-    for (const numbers of blocks) transferBytes += numbers?.data.byteLength ?? 0;
-    transferBytes += transfer?.biScale?.idMap?.ids.byteLength ?? 0;
-  }
-  for (const { numbers } of description.rtts) transferBytes += numbers.data.byteLength;
-  const { version, generator, transfer, bands, directions, bounces } = description;
-  return {
-    ...{ version, generator, transfer, bands, directions, bounces },
-    ...{ vertices, triangles, receivers, transferBytes },
-  };
 }

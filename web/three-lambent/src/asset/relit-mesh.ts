@@ -24,6 +24,7 @@ import type { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { LitTexture } from "../gpu/lit-texture.js";
 import { kGroupsAFetch, kNumbersOf, type RttTexture } from "../gpu/rtt-texture.js";
 import { TransferPass, TurnPass, type LightPass } from "../gpu/transfer-pass.js";
+import type { AirMode } from "../materials/air-source.js";
 import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
 import { incidentGroups } from "../materials/group-macros.js";
 import {
@@ -35,6 +36,7 @@ import { bandOf, evaluateHarmonics } from "../sh/basis.js";
 import { clampedCosineMoments, phongLobeMoments } from "../sh/zonal.js";
 import { kindOf, macroOf, type TransferChoice } from "./choices.js";
 import type { Reflectance } from "./reflectance.js";
+import { kindWithoutBounces } from "./sharp-sun.js";
 
 /** What somebody wants to see. */
 export interface Choices {
@@ -45,6 +47,16 @@ export interface Choices {
   lobeExponent: number | null;
   unlit: boolean;
   samples: number;
+  /** There is a Sun whose shadows are sharp. */
+  sun: boolean;
+  air: AirMode;
+}
+
+/** [coefficient][3], in the asset's frame: of all light, of a sharp Sun's share, and of the rest. */
+export interface Lights {
+  whole: Float64Array;
+  sun: Float64Array;
+  withoutSun: Float64Array;
 }
 
 /** How incident light comes to the fragments: interpolated, or fetched at the triangle's corners. */
@@ -54,6 +66,7 @@ export type IncidentMode = "auto" | "varyings" | "fetch";
 export interface Shared {
   description: AssetDescription;
   environment: EnvironmentUniforms;
+  air: Record<string, IUniform>;
   incident: IncidentMode;
   /** On the GPU when first asked for. */
   rtt(index: number): RttTexture;
@@ -69,6 +82,7 @@ interface Lit {
   glossy: boolean;
   /** For each row, besides the lobe's. */
   scales: Float32Array | null;
+  light: keyof Lights;
 }
 
 export class RelitMesh {
@@ -81,6 +95,10 @@ export class RelitMesh {
   private readonly map: Texture | null;
   /** What the loader gave the mesh. */
   readonly original: Material;
+  /** Of the asset's Sun. */
+  sunUniforms: Record<string, IUniform> = {};
+  /** Whether something hides a sharp Sun from what is shown. */
+  needsSunMap = false;
 
   constructor(
     readonly mesh: Mesh,
@@ -95,6 +113,11 @@ export class RelitMesh {
       if (material === this.material) this.material.look(renderer, camera, mesh);
     };
     mesh.material = this.black();
+  }
+
+  /** Its triangles, as the loader made them. */
+  get plain(): BufferGeometry {
+    return this.geometry;
   }
 
   get isMirror(): boolean {
@@ -123,7 +146,7 @@ export class RelitMesh {
     const { transfer, shared } = this;
     const kind = transfer ? kindOf(shared.description, transfer, choices.transfer) : "";
     const patch = transfer?.biScale ? `${choices.macro} ${choices.filter}` : "";
-    const key = choices.unlit ? "unlit" : `${kind} ${patch}`;
+    const key = choices.unlit ? "unlit" : `${kind} ${patch} ${choices.sun} ${choices.air}`;
     const fresh = key !== this.built;
     if (fresh) {
       this.release();
@@ -140,19 +163,21 @@ export class RelitMesh {
   private build(renderer: WebGLRenderer, choices: Choices): void {
     const { transfer, reflectance, map, colored, uv, shared } = this;
     const plain = { map, colored, uv };
+    const { air } = choices;
+    const throughAir = air === "none" ? {} : shared.air;
     if (choices.unlit) {
       this.show(makeSurfaceMaterial({ kind: "unlit", ...plain }, {}));
       this.material!.uniforms.reflectance.value.set(...reflectance.base);
     } else if (this.isMirror) {
-      const { uniforms } = shared.environment;
-      this.show(makeSurfaceMaterial({ kind: "mirror", ...plain }, uniforms));
+      const uniforms = { ...shared.environment.uniforms, ...throughAir };
+      this.show(makeSurfaceMaterial({ kind: "mirror", ...plain, air }, uniforms));
       this.material!.uniforms.reflectance.value.set(...reflectance.mirror);
     } else if (transfer?.biScale) {
       this.buildPatch(renderer, choices);
     } else if (transfer && (transfer.vectors || transfer.matrices)) {
       this.buildSurface(renderer, transfer, choices);
     } else {
-      this.show(makeSurfaceMaterial({ kind: "black", ...plain }, {}));
+      this.show(makeSurfaceMaterial({ kind: "black", ...plain, air }, throughAir));
     }
   }
 
@@ -178,6 +203,7 @@ export class RelitMesh {
     const from =
       kind === "shadowed" && description.transfer !== kind ? transfer.shadowed : transfer;
     const uniforms: Record<string, IUniform> = {};
+    const direct = choices.sun ? kindWithoutBounces(description, transfer, choices.transfer) : null;
     const { receivers, grid } = transfer;
     let albedoOutside = false;
     if (transfer.vectors && from?.vectors) {
@@ -188,10 +214,19 @@ export class RelitMesh {
       const texture = new LitTexture(renderer, receivers, 1, this.what);
       const shape = { rows: 1, columns: vectors.bands ** 2, channels: vectors.channels };
       const pass = new TransferPass(vectors.numbers, shape, texture, [1, 1, 1], this.what);
-      this.lits.push({ texture, pass, glossy: false, scales: null });
+      const light = direct === kind ? "withoutSun" : "whole";
+      this.lits.push({ texture, pass, glossy: false, scales: null, light });
       uniforms.diffuseLit = { value: texture.target.texture };
       uniforms.diffuseALine = { value: texture.receiversALine };
     }
+    if (direct) {
+      Object.assign(uniforms, this.sunUniforms, {
+        sunReflectance: { value: new Vector3(...this.reflectance.diffuse) },
+      });
+      this.needsSunMap = direct !== "unshadowed";
+    }
+    const apart = direct && direct !== kind;
+    if (apart) uniforms.sunLit = { value: this.buildSunShare(renderer, transfer) };
     let lobeBands = 0;
     if (transfer.matrices && from?.matrices) {
       const { matrices } = from;
@@ -203,10 +238,11 @@ export class RelitMesh {
       const channels = unshadowed ? 1 : matrices.channels;
       const shape = { rows, columns, channels, shared: unshadowed };
       const pass = new TransferPass(numbers, shape, texture, matrices.glossy, this.what);
-      this.lits.push({ texture, pass, glossy: true, scales: null });
+      this.lits.push({ texture, pass, glossy: true, scales: null, light: "whole" });
       uniforms.incidentLit = { value: texture.target.texture };
       uniforms.incidentALine = { value: texture.receiversALine };
     }
+    if (choices.air !== "none") Object.assign(uniforms, this.shared.air);
     if (grid) uniforms.grid = { value: Int32Array.of(grid.width, grid.height) };
     const fetch = !grid && lobeBands > 0 && this.mustFetch(renderer, lobeBands ** 2);
     this.mesh.geometry = fetch ? this.expand() : this.geometry;
@@ -214,9 +250,22 @@ export class RelitMesh {
     const shape = {
       kind: transfer.layout,
       diffuse: uniforms.diffuseLit !== undefined,
+      sun: direct && (direct === "unshadowed" ? ("open" as const) : ("hidden" as const)),
+      sunShare: apart !== null && apart,
+      air: choices.air,
       ...{ albedoOutside, lobeBands, fetch, map, colored, uv },
     };
     this.show(makeSurfaceMaterial(shape, uniforms));
+  }
+
+  /** What shadowed transfer, which is held beside what is shown, makes of the Sun's harmonics. */
+  private buildSunShare(renderer: WebGLRenderer, transfer: PrimitiveTransfer): Texture {
+    const { numbers, bands, channels } = transfer.shadowed!.vectors!;
+    const texture = new LitTexture(renderer, transfer.receivers, 1, this.what);
+    const shape = { rows: 1, columns: bands ** 2, channels };
+    const pass = new TransferPass(numbers, shape, texture, [1, 1, 1], this.what);
+    this.lits.push({ texture, pass, glossy: false, scales: null, light: "sun" });
+    return texture.target.texture;
   }
 
   private buildPatch(renderer: WebGLRenderer, choices: Choices): void {
@@ -236,7 +285,10 @@ export class RelitMesh {
     } else {
       pass = new TurnPass(this.normals(), biScale.tangents, rtt.bands, texture, this.what);
     }
-    this.lits.push({ texture, pass, glossy: false, scales: rttTexture.scales() });
+    this.lits.push({
+      ...{ texture, pass, glossy: false, scales: rttTexture.scales() },
+      light: "whole",
+    });
 
     const fetch = this.mustFetch(renderer, rows);
     if (!this.geometry.hasAttribute("lambentTangent"))
@@ -268,7 +320,9 @@ export class RelitMesh {
       fetch,
       filter: choices.filter,
       idMap: biScale.idMap !== null,
+      air: choices.air,
     };
+    if (choices.air !== "none") Object.assign(uniforms, this.shared.air);
     this.show(makePatchMaterial(shape, uniforms));
   }
 
@@ -340,14 +394,13 @@ export class RelitMesh {
     return { numbers, bands, channels: 3, albedoOutside: color === null };
   }
 
-  /** @param light [coefficient][3], in the asset's frame */
   relight(
     renderer: WebGLRenderer,
     screen: FullScreenPass,
-    light: Float64Array,
+    lights: Lights,
     lobeExponent: number | null,
   ): void {
-    for (const { texture, pass, glossy, scales } of this.lits) {
+    for (const { texture, pass, glossy, scales, light } of this.lits) {
       const factors = new Float32Array(4 * Math.ceil(texture.rows / 4)).fill(1);
       if (glossy) {
         const exponent = lobeExponent ?? this.transfer!.matrices!.lobeExponent;
@@ -355,7 +408,7 @@ export class RelitMesh {
         for (let i = 0; i < texture.rows; ++i) factors[i] = moments[bandOf(i)];
       }
       scales?.forEach((scale, i) => (factors[i] *= scale));
-      pass.run(renderer, screen, light, factors);
+      pass.run(renderer, screen, lights[light], factors);
     }
   }
 
@@ -366,6 +419,7 @@ export class RelitMesh {
       pass.dispose();
     }
     this.lits = [];
+    this.needsSunMap = false;
     this.idMap?.dispose();
     this.idMap = null;
   }

@@ -4,7 +4,7 @@
 // Before this text stand: #define LAMBENT_FETCH, LAMBENT_FILTER, LAMBENT_ID_MAP, each 0 or 1, and what
 // these want: incident.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl,
 // rtt_look_up.glsl, tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; the textures of the
-// first two; shading_point.glsl.
+// first two; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0.
 
 #include <common>
 #include <logdepthbuf_pars_fragment>
@@ -67,6 +67,9 @@ void main() {
     gl_FragColor.rgb = nearest(q);
 #endif
   }
+#if LAMBENT_AIR
+  if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);
+#endif
 #include <tonemapping_fragment>
 #include <colorspace_fragment>
 }

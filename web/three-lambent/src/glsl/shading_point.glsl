@@ -12,6 +12,7 @@ struct ShadingPoint {
   vec3 position;
   vec2 uv;
   vec3 normal;    // unit
+  vec3 front;     // unit, the triangle's own, on the side that is seen
   vec3 toViewer;  // unit
   float distance;
 };
@@ -24,11 +25,11 @@ ShadingPoint shadingPoint() {
   vec3 away = eye.xyz - point.position;
   point.distance = length(away);
   point.toViewer = eye.w > 0.0 ? away / point.distance : eye.xyz;
-  // The triangle's own normal, on the side that is seen.
   vec3 front = cross(dFdx(point.position), dFdy(point.position));
   float size = length(front);
   front = size > 0.0 ? front / size : point.toViewer;
   if (dot(front, point.toViewer) < 0.0) front = -front;
+  point.front = front;
   point.normal = shadingNormal(normalV.xyz, front);
   return point;
 }

@@ -4,8 +4,9 @@
 // Before this text stand: #define LAMBENT_KIND 0 vertices, 1 texels, 2 mirror, 3 black, 4 unlit;
 // LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_FETCH, LAMBENT_ALBEDO_OUTSIDE; with glossy sh.glsl,
 // incident.glsl, incident_texture.glsl, lobe.glsl; shading_normal.glsl, shading_point.glsl;
-// base_color.glsl, with a map base_color_map.glsl; for texels texel_receivers.glsl; for a mirror
-// environment.glsl, environment_map.glsl.
+// base_color.glsl, with a map base_color_map.glsl; for texels texel_receivers.glsl; LAMBENT_SUN (0: no
+// sharp Sun, else sun_light.glsl with what it wants), LAMBENT_SUN_SHARE; LAMBENT_AIR, with what
+// air_texels.glsl says, or 0; for a mirror environment.glsl, environment_map.glsl.
 
 #include <common>
 #include <logdepthbuf_pars_fragment>
@@ -26,13 +27,20 @@ uniform ivec2 grid;
 #if LAMBENT_DIFFUSE
 uniform highp usampler2D diffuseLit;  // bits of floats
 uniform int diffuseALine;
+#if LAMBENT_SUN_SHARE
+uniform highp usampler2D sunLit;  // beside it, to be taken out
+#endif
 
 vec3 diffuseAt(Texels texels) {
   vec3 sum = vec3(0.0);
   for (int k = 0; k < 4; ++k) {
     int line = texels.receiver[k] / diffuseALine;
     ivec2 place = ivec2(texels.receiver[k] - line * diffuseALine, line);
-    sum += texels.weight[k] * uintBitsToFloat(texelFetch(diffuseLit, place, 0).rgb);
+    vec3 texel = uintBitsToFloat(texelFetch(diffuseLit, place, 0).rgb);
+#if LAMBENT_SUN_SHARE
+    texel -= uintBitsToFloat(texelFetch(sunLit, place, 0).rgb);
+#endif
+    sum += texels.weight[k] * texel;
   }
   return sum;
 }
@@ -68,6 +76,9 @@ void main() {
 #endif
 #endif
     gl_FragColor.rgb = diffuse;
+#if LAMBENT_SUN
+    gl_FragColor.rgb += base * sunRadiance(point.position, point.normal, point.front);
+#endif
 #if LAMBENT_GLOSSY
 #if LAMBENT_KIND == 1
     interpolateIncident(texels.receiver, texels.weight);
@@ -78,6 +89,9 @@ void main() {
 #endif
 #endif
   }
+#endif
+#if LAMBENT_AIR
+  if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);
 #endif
 #include <tonemapping_fragment>
 #include <colorspace_fragment>

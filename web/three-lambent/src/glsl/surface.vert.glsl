@@ -1,7 +1,7 @@
 // A relit surface. Vertices fetch what the transfer pass made for them by their number.
 //
 // Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
-// LAMBENT_UV, LAMBENT_COLOR,
+// LAMBENT_UV, LAMBENT_COLOR, LAMBENT_SUN_SHARE,
 // LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
 // corners, and vertices know their triangle); where they interpolate it incident_texture.glsl.
 
@@ -26,6 +26,9 @@ out vec3 vertexColor;
 uniform highp usampler2D diffuseLit;  // bits of floats
 uniform int diffuseALine;
 out vec3 diffuseRadiance;
+#if LAMBENT_SUN_SHARE
+uniform highp usampler2D sunLit;  // beside it, to be taken out
+#endif
 #endif
 #if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
 out vec4 incident[LAMBENT_GROUPS];
@@ -58,6 +61,9 @@ void main() {
   int line = receiver / diffuseALine;
   ivec2 diffusePlace = ivec2(receiver - line * diffuseALine, line);
   diffuseRadiance = uintBitsToFloat(texelFetch(diffuseLit, diffusePlace, 0).rgb);
+#if LAMBENT_SUN_SHARE
+  diffuseRadiance -= uintBitsToFloat(texelFetch(sunLit, diffusePlace, 0).rgb);
+#endif
 #endif
 #if LAMBENT_VERTICES && (LAMBENT_GLOSSY || LAMBENT_PATCH) && !LAMBENT_FETCH
   ivec2 first = lightPlace(receiver);

@@ -10,6 +10,7 @@ import {
   type WebGLRenderer,
   type WebGLRenderTarget,
 } from "three";
+import { renderInto } from "./render-into.js";
 
 export class FullScreenPass {
   private readonly geometry = new BufferGeometry();
@@ -26,24 +27,8 @@ export class FullScreenPass {
   }
 
   render(renderer: WebGLRenderer, material: Material, target: WebGLRenderTarget | null): void {
-    const before = {
-      target: renderer.getRenderTarget(),
-      face: renderer.getActiveCubeFace(),
-      level: renderer.getActiveMipmapLevel(),
-      autoClear: renderer.autoClear,
-      xr: renderer.xr.enabled,
-      shadows: renderer.shadowMap.autoUpdate,
-    };
-    renderer.autoClear = false;
-    renderer.xr.enabled = false;
-    renderer.shadowMap.autoUpdate = false;
     this.mesh.material = material;
-    renderer.setRenderTarget(target);
-    renderer.render(this.scene, this.camera);
-    renderer.setRenderTarget(before.target, before.face, before.level);
-    renderer.autoClear = before.autoClear;
-    renderer.xr.enabled = before.xr;
-    renderer.shadowMap.autoUpdate = before.shadows;
+    renderInto(renderer, this.scene, this.camera, target);
   }
 
   dispose(): void {

@@ -208,15 +208,19 @@ export class LambentLight {
    * @throws RangeError for another name
    */
   window(name: WindowName): this {
-    const weights = this.weightsOf(name);
-    if (!weights) return this;
-    for (let l = 0; l < this.bands; ++l)
+    return name === "none" ? this : this.attenuate(this.windowWeights(name));
+  }
+
+  /** Multiplies each band by its weight; bands beyond them stay as they are. */
+  attenuate(weights: ArrayLike<number>): this {
+    for (let l = 0; l < Math.min(this.bands, weights.length); ++l)
       for (let i = 3 * l * l; i < 3 * (l + 1) * (l + 1); ++i) this.coefficients[i] *= weights[l];
     return this.touch();
   }
 
-  private weightsOf(name: WindowName): Float64Array | null {
-    if (name === "none") return null;
+  /** What {@link window} multiplies each band with. @throws Error for another name */
+  windowWeights(name: WindowName): Float64Array {
+    if (name === "none") return new Float64Array(this.bands).fill(1);
     if (name === "minimal") return minimalRingingWindow(this.coefficients, this.bands);
     const match = /^(hann|lanczos):(.+)$/.exec(name);
     const width = Number(match?.[2]);

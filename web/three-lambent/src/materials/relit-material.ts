@@ -33,12 +33,15 @@ import {
   sh,
   shadingNormal,
   shadingPoint,
+  sunLight,
+  sunShadow,
   surfaceFrag,
   surfaceVert,
   tangentFrame,
   texelReceivers,
   viewSquare,
 } from "../generated/shaders.js";
+import { airSource, type AirMode } from "./air-source.js";
 import { environmentGlsl } from "./environment-uniforms.js";
 import { eachGroup, incidentGroups, responseMacros } from "./group-macros.js";
 
@@ -54,6 +57,11 @@ export interface SurfaceShape {
   lobeBands?: number;
   /** The fragment shader fetches the light at the triangle's corners. */
   fetch?: boolean;
+  /** A sharp Sun shines on it, and can be hidden; what is known of it is to be taken out. */
+  sun?: "open" | "hidden" | null;
+  sunShare?: boolean;
+  /** What it is seen through. */
+  air?: AirMode;
   map: Texture | null;
   colored: boolean;
   uv: boolean;
@@ -68,6 +76,7 @@ export interface PatchShape {
   fetch: boolean;
   filter: boolean;
   idMap: boolean;
+  air: AirMode;
 }
 
 const flag = (value: unknown) => (value ? 1 : 0);
@@ -150,6 +159,7 @@ export function makeSurfaceMaterial(
   const map = shape.uv ? shape.map : null;
   const glossy = coefficients > 0 && (vertices || shape.kind === "texels");
   const fetch = shape.fetch && glossy && vertices;
+  const sun = shape.sun === "hidden" ? 2 : flag(shape.sun);
   const common = defines({
     KIND: kSurfaceKind[shape.kind],
     VERTICES: flag(vertices),
@@ -161,6 +171,8 @@ export function makeSurfaceMaterial(
     UV: flag(shape.uv),
     COLOR: flag(shape.colored),
     ALBEDO_OUTSIDE: flag(shape.albedoOutside),
+    SUN: sun,
+    SUN_SHARE: flag(shape.sunShare),
   });
   const light = glossy ? incidentDefines(coefficients, vertices && !fetch) : "";
   const parts = [
@@ -173,6 +185,9 @@ export function makeSurfaceMaterial(
     baseColor,
     map ? baseColorMap : "",
     shape.kind === "texels" ? texelReceivers : "",
+    sun === 2 ? sunShadow : "",
+    sun ? sunLight : "",
+    airSource(shape.air ?? "none"),
     shape.kind === "mirror" ? `uniform mat3 worldFromAsset;\n${environmentGlsl}` : "",
     surfaceFrag,
   ];
@@ -200,6 +215,7 @@ export function makePatchMaterial(
     DIFFUSE: 0,
     GLOSSY: 0,
     PATCH: 1,
+    SUN_SHARE: 0,
     FETCH: flag(shape.fetch),
     UV: 1,
     COLOR: 0,
@@ -225,6 +241,7 @@ export function makePatchMaterial(
     shadingNormal,
     shadingPoint,
     patchPlace,
+    airSource(shape.air),
     patchFrag,
   ];
   const vertexParts = [common, light, incidentTexture, surfaceVert];

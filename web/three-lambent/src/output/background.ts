@@ -8,6 +8,8 @@ import {
   ShaderMaterial,
   Vector4,
 } from "three";
+import type { LambentAsset } from "../asset/asset.js";
+import { airSource } from "../materials/air-source.js";
 import { backgroundFrag, backgroundVert } from "../generated/shaders.js";
 import {
   environmentGlsl,
@@ -21,6 +23,7 @@ import {
  */
 export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> {
   private readonly shown = new EnvironmentUniforms();
+  private before: LambentAsset | null = null;
 
   constructor(environment: Environment | null = null) {
     const geometry = new BufferGeometry();
@@ -29,16 +32,7 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
       new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3),
     );
     super(geometry);
-    this.material = new ShaderMaterial({
-      vertexShader: backgroundVert,
-      fragmentShader: `${environmentGlsl}${backgroundFrag}`,
-      uniforms: {
-        worldFromClip: { value: new Matrix4() },
-        eye: { value: new Vector4() },
-        ...this.shown.uniforms,
-      },
-      depthWrite: false,
-    });
+    this.material = this.materialOf(null);
     this.frustumCulled = false;
     this.renderOrder = 1; // behind what is there: pixels that are covered cost nothing
     this.raycast = () => {};
@@ -55,6 +49,37 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
 
   setEnvironment(environment: Environment | null): void {
     this.shown.set(environment);
+  }
+
+  /**
+   * The asset whose shafts of light ({@link LambentAsset.setAir}) stand before it; null: none do. Say it
+   * again when the asset's Sun or air came or went. The sky itself is air already, and is not seen
+   * through it once more.
+   */
+  setAsset(asset: LambentAsset | null): void {
+    const before = asset?.throwsShafts ? asset : null;
+    if (before === this.before) return;
+    this.material.dispose();
+    this.material = this.materialOf(before);
+    this.before = before;
+  }
+
+  private materialOf(asset: LambentAsset | null): ShaderMaterial {
+    const air = airSource(asset ? "shafts" : "none");
+    return new ShaderMaterial({
+      vertexShader: backgroundVert,
+      fragmentShader: `${environmentGlsl}${air}${backgroundFrag}`,
+      uniforms: {
+        worldFromClip: { value: new Matrix4() },
+        eye: { value: new Vector4() },
+        ...this.shown.uniforms,
+        ...(asset && {
+          ...asset.air.uniforms,
+          assetFromWorld: { value: asset.air.assetFromWorld },
+        }),
+      },
+      depthWrite: false,
+    });
   }
 
   override dispose(): void {

@@ -6,17 +6,22 @@
 // preetham2003modeling (CIE's clear sky of 1973), moon1942illumination (overcast),
 // krochmann1974quantitative and karayel1984zenith (zenith luminances), kasten1965new (air mass).
 
-import { gaussLegendre } from "../sh/quadrature.js";
+import {
+  airMass,
+  angleFromSun,
+  clamp,
+  forDome,
+  shapeAt,
+  white,
+  type Luminous,
+  type Shape,
+  type Triple,
+} from "./analytic_forms.js";
 import { rgbOfXyz } from "./color.js";
 import { domeAzimuth, domeElevation, kDomeColumns, kDomeRows, type DomeGrid } from "./grids.js";
 import { twilightFactor } from "./twilight.js";
 
-type Triple = [number, number, number];
-
 export type AnalyticModel = "preetham" | "cie-clear" | "cie-overcast" | `cie:${number}`;
-
-/** X, Y, Z in cd m⁻² by cosine of the zenith angle and angle from the Sun (radians). */
-type Luminous = (cosZenith: number, sunAngle: number) => Triple;
 
 export interface AnalyticSky {
   grid: DomeGrid;
@@ -24,58 +29,6 @@ export interface AnalyticSky {
   diffuse: Triple;
   /** Whether the Sun shines through. */
   shines: boolean;
-}
-
-const clamp = (x: number, low: number, high: number) => Math.min(Math.max(x, low), high);
-
-interface Shape {
-  /** Towards the horizon. */
-  a: number;
-  b: number;
-  /** About the Sun. */
-  c: number;
-  d: number;
-  e: number;
-  k: number;
-}
-
-const gradation = ({ a, b }: Shape, cosZenith: number) =>
-  Math.max(1 + a * Math.exp(b / Math.max(cosZenith, 0.01)), 0);
-const indicatrix = ({ c, d, e, k }: Shape, angle: number) =>
-  Math.max(k + c * Math.exp(d * angle) + e * Math.cos(angle) ** 2, 0);
-const shapeAt = (shape: Shape, cosZenith: number, angle: number) =>
-  gradation(shape, cosZenith) * indicatrix(shape, angle);
-
-/** Relative optical air mass, kasten1965new. */
-function airMass(elevation: number): number {
-  const degrees = (elevation * 180) / Math.PI;
-  return 1 / (Math.sin(elevation) + 0.15 * (degrees + 3.885) ** -1.253);
-}
-
-const white = (luminance: number): Triple => {
-  const [x, y] = [0.3127, 0.329];
-  return [(luminance * x) / y, luminance, (luminance * (1 - x - y)) / y];
-};
-
-function forDome(
-  nodes: number,
-  sun: number,
-  add: (cosZenith: number, sunAngle: number, weight: number) => void,
-): void {
-  const sines = gaussLegendre(nodes, 0, 1);
-  const turns = gaussLegendre(nodes, 0, Math.PI);
-  for (let i = 0; i < nodes; ++i)
-    for (let j = 0; j < nodes; ++j) {
-      const y = sines.nodes[i];
-      const x = Math.sqrt(1 - y * y) * Math.cos(turns.nodes[j]);
-      const z = Math.sqrt(1 - y * y) * Math.sin(turns.nodes[j]);
-      add(y, angleFromSun(x, y, z, sun), 2 * sines.weights[i] * turns.weights[j] * y);
-    }
-}
-
-function angleFromSun(x: number, y: number, z: number, sun: number): number {
-  const chord = Math.hypot(x - Math.cos(sun), y - Math.sin(sun), z);
-  return 2 * Math.asin(Math.min(chord / 2, 1));
 }
 
 // The fifteen: gradation 1 … 6, indicatrix 1 … 6, diffuse over extraterrestrial illuminance.
@@ -220,9 +173,19 @@ export function analyticSky(
   turbidity: number,
   sunElevation: number,
 ): AnalyticSky {
+  const sky = skyOf(model, turbidity, clamp(sunElevation, 0, Math.PI / 2));
+  const type = model.startsWith("cie:") ? Number(model.slice(4)) : 0;
+  const shines = type ? type > 6 && type !== 9 : model !== "cie-overcast";
+  return { ...domeOf(sky, sunElevation, twilightFactor(sunElevation)), shines };
+}
+
+/** The grid of a model's dome, every luminance times a factor. */
+export function domeOf(
+  sky: Luminous,
+  sunElevation: number,
+  factor = 1,
+): { grid: DomeGrid; diffuse: Triple } {
   const sun = clamp(sunElevation, 0, Math.PI / 2);
-  const twilight = twilightFactor(sunElevation);
-  const sky = skyOf(model, turbidity, sun);
   const grid = new Float32Array(3 * kDomeRows * kDomeColumns);
   const rgb = [0, 0, 0];
   for (let r = 0; r < kDomeRows; ++r) {
@@ -232,16 +195,14 @@ export function analyticSky(
       const azimuth = domeAzimuth(c);
       const [x, z] = [cosine * Math.cos(azimuth), cosine * Math.sin(azimuth)];
       const xyz = sky(sine, angleFromSun(x, sine, z, sun));
-      rgbOfXyz(twilight * xyz[0], twilight * xyz[1], twilight * xyz[2], rgb);
+      rgbOfXyz(factor * xyz[0], factor * xyz[1], factor * xyz[2], rgb);
       grid.set(rgb, 3 * (r * kDomeColumns + c));
     }
   }
   const diffuse: Triple = [0, 0, 0];
   forDome(16, sun, (cosZenith, angle, weight) => {
     const xyz = sky(cosZenith, angle);
-    for (let i = 0; i < 3; ++i) diffuse[i] += twilight * weight * xyz[i];
+    for (let i = 0; i < 3; ++i) diffuse[i] += factor * weight * xyz[i];
   });
-  const type = model.startsWith("cie:") ? Number(model.slice(4)) : 0;
-  const shines = type ? type > 6 && type !== 9 : model !== "cie-overcast";
-  return { grid, diffuse, shines };
+  return { grid, diffuse };
 }

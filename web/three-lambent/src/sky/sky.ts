@@ -7,17 +7,19 @@
 import type { DataTexture } from "three";
 import { LambentLight, type DirectionLike, type Disc, type Rgb } from "../light/light.js";
 import type { Environment, EnvironmentSky } from "../materials/environment-uniforms.js";
-import { analyticSky, type AnalyticModel } from "./analytic_skies.js";
+import { analyticSky, domeOf, type AnalyticModel, type AnalyticSky } from "./analytic_skies.js";
 import { shownRgb } from "./color.js";
 import { domeTexture, projectDome } from "./dome_light.js";
+import { clearSkyIrradiance, measuredSky, type MeasuredModel } from "./measured_skies.js";
 import { SkyData } from "./sky_data.js";
 import { refraction, sunIrradianceScale, sunPosition, worldDirection } from "./sun_position.js";
 
 /**
- * "fast": the library's simulation of its preset "clear". The others are analytic: Preetham's, and
- * CIE's clear sky of 1973, overcast sky, and types "cie:1" … "cie:15" of the standard general sky.
+ * "fast": the library's simulation of its preset "clear". The others are analytic: Preetham's, CIE's
+ * clear sky of 1973, overcast sky, and types "cie:1" … "cie:15" of the standard general sky; and two
+ * that know a sky by what weather stations measure, Perez's and ASRC-CIE.
  */
-export type SkyModel = "fast" | AnalyticModel;
+export type SkyModel = "fast" | AnalyticModel | MeasuredModel;
 
 /** Angles in radians. Either date, latitude and longitude say where the Sun stands, or it is told. */
 export interface SkyRequest {
@@ -35,6 +37,12 @@ export interface SkyRequest {
   model?: SkyModel;
   /** How hazy the air is, 1 (no aerosols) … 10. Default 2.5. */
   turbidity?: number;
+  /**
+   * What was measured, of "perez" and "asrc-cie" alone: irradiance by the Sun on a surface that faces
+   * it, and by the sky on a horizontal one; W m⁻², 0 … 2000. Default: those of a clear sky.
+   */
+  directNormal?: number;
+  diffuseHorizontal?: number;
 }
 
 /** The Sun as its own component of a sky. */
@@ -49,6 +57,8 @@ export interface SkySun {
   irradiance: Rgb;
   /** Radians. */
   angularRadius: number;
+  /** What its light is of that at one astronomical unit. */
+  nearness: number;
   /** How much of the disc stands above the horizon, 0 … 1. */
   visible: number;
   /** The same as a disc with its limb darkening; null where none of it is seen. */
@@ -100,10 +110,17 @@ export class Sky {
   /** The ground as a disc. */
   readonly groundDisc: Disc;
   readonly sun: SkySun;
+  readonly turbidity: number;
   private readonly coefficients: Float64Array;
 
   /** @internal */
-  constructor(texture: DataTexture, coefficients: Float64Array, ground: Rgb, sun: SkySun) {
+  constructor(
+    texture: DataTexture,
+    coefficients: Float64Array,
+    ground: Rgb,
+    sun: SkySun,
+    turbidity: number,
+  ) {
     const half = Math.PI / 4 - sun.azimuth / 2; // about +y, from the Sun's frame to the world
     this.dome = {
       texture,
@@ -118,6 +135,7 @@ export class Sky {
       horizon: { up: { x: 0, y: -1, z: 0 }, elevation: 0 },
     };
     this.sun = sun;
+    this.turbidity = turbidity;
     this.coefficients = coefficients;
   }
 
@@ -208,6 +226,30 @@ function seenSun(request: SkyRequest): Seen {
   };
 }
 
+const isMeasured = (model: SkyModel): model is MeasuredModel =>
+  model === "perez" || model === "asrc-cie";
+
+/** @throws RangeError for a model that is not there, and for what does not go with it */
+function checkModel({ model = "fast", directNormal, diffuseHorizontal }: SkyRequest): void {
+  if ((model as string) === "exact")
+    throw new RangeError(
+      "LambentSky: the model exact marches through the air, which takes the tool: lambent sky; here " +
+        "fast is nearest to it",
+    );
+  if (!/^(fast|preetham|perez|asrc-cie|cie-clear|cie-overcast|cie:([1-9]|1[0-5]))$/.test(model))
+    throw new RangeError(
+      `LambentSky: no model "${model}": fast, preetham, perez, asrc-cie, cie-clear, cie-overcast, ` +
+        "cie:1 to cie:15",
+    );
+  for (const value of [directNormal, diffuseHorizontal]) {
+    if (value === undefined) continue;
+    if (!isMeasured(model))
+      throw new RangeError(`LambentSky: irradiances are of perez and asrc-cie, not of ${model}`);
+    if (!(value >= 0 && value <= 2000))
+      throw new RangeError(`LambentSky: an irradiance of ${value} is not within 0 to 2000 W/m²`);
+  }
+}
+
 /**
  * Makes skies: of a place and a moment, or of a height of the Sun; some milliseconds each, without
  * a server. Seen from the ground, which reflects 0.1 of the light; the preset "clear".
@@ -237,6 +279,26 @@ export class LambentSky {
     return { elevation, azimuth };
   }
 
+  private analytic(
+    { model, turbidity = 2.5, directNormal, diffuseHorizontal }: SkyRequest,
+    elevation: number,
+    sunDistance: number,
+  ): AnalyticSky & { directIlluminance?: number } {
+    if (!isMeasured(model!)) return analyticSky(model as AnalyticModel, turbidity, elevation);
+    const clear = clearSkyIrradiance(turbidity, elevation, sunDistance);
+    const { luminous, directIlluminance } = measuredSky(
+      model,
+      this.data.measured,
+      {
+        directNormal: directNormal ?? clear.directNormal,
+        diffuseHorizontal: diffuseHorizontal ?? clear.diffuseHorizontal,
+      },
+      elevation,
+      sunDistance,
+    );
+    return { ...domeOf(luminous, elevation), shines: true, directIlluminance };
+  }
+
   /**
    * @throws RangeError for what is out of its range; a Sun below −18° is night, which has no sky of
    *   the Sun's
@@ -245,12 +307,7 @@ export class LambentSky {
     const { model = "fast", turbidity = 2.5 } = request;
     if (!(turbidity >= 1 && turbidity <= 10))
       throw new RangeError(`LambentSky: the turbidity ${turbidity} is not within 1 to 10`);
-    if (
-      !/^(fast|preetham|cie-clear|cie-overcast|cie:([1-9]|1[0-5]))$/.test(model)
-    )
-      throw new RangeError(
-        `LambentSky: no model "${model}": fast, preetham, cie-clear, cie-overcast, cie:1 to cie:15`,
-      );
+    checkModel(request);
     const seen = seenSun(request);
     if (seen.elevation < kNight - 1e-9)
       throw new RangeError(
@@ -263,7 +320,7 @@ export class LambentSky {
     const nearness = 1 / seen.distance ** 2;
 
     const simulated = model === "fast" ? this.data.dome(turbidity, elevation) : null;
-    const analytic = simulated ? null : analyticSky(model as AnalyticModel, turbidity, elevation);
+    const analytic = simulated ? null : this.analytic(request, elevation, seen.distance);
     const { grid, diffuse } = simulated ?? analytic!;
     let sun = [0, 0, 0];
     let direct = [0, 0, 0]; // on the ground
@@ -274,6 +331,11 @@ export class LambentSky {
       sun = sun.map((value) => value * visible);
     } else if (analytic!.shines) {
       sun = this.data.plainSun(turbidity, elevation).map((value) => nearness * visible * value);
+      const { directIlluminance } = analytic!;
+      if (directIlluminance !== undefined) {
+        const scale = sun[1] > 0 ? (visible * directIlluminance) / sun[1] : 0;
+        sun = sun.map((value) => scale * value);
+      }
       direct = sun.map((value) => value * Math.max(Math.sin(elevation), 0));
     }
     const dome = simulated ? nearness : 1;
@@ -303,9 +365,11 @@ export class LambentSky {
         direction,
         irradiance,
         angularRadius,
+        nearness,
         visible,
         disc: shown ? { ...shape, radiance } : null,
       },
+      turbidity,
     );
   }
 }

@@ -73,8 +73,9 @@ async function draw(state) {
   asset.setLight(light);
   const around = { texture: map, rotation: worldFromEnvironment, discs };
   asset.setEnvironment(around);
+  if (state.sharpSun) asset.setSun(lambent.sunOf(discs));
   Object.assign(asset, state.asset_ ?? {});
-  asset.update(renderer);
+  asset.update(renderer, camera);
 
   const target = new THREE.WebGLRenderTarget(size, size, {
     type: THREE.FloatType,
