@@ -1,5 +1,8 @@
 // The container and the buffers of glTF 2.0 (Khronos Group, glTF 2.0 specification, §3.6 and §4.4).
 // Every size is checked before it is believed.
+#include <algorithm>
+#include <cctype>
+
 #include "lambent/file/json.h"
 #include "lambent/scene_io/gltf_file_impl.h"
 #include "lambent/scene_io/gltf_meshopt.h"
@@ -14,6 +17,17 @@ std::uint32_t littleEndian32(Bytes bytes, std::size_t offset) {
   for (int i = 3; i >= 0; --i) value = value << 8 | std::uint32_t(bytes[offset + i]);
   return value;
 }
+
+/// A .gltf that was called .glb.
+bool beginsAsJson(Bytes bytes) {
+  std::size_t i = 0;
+  if (bytes.size() > 3 && littleEndian32(bytes, 0) << 8 == 0xbfbbef00) i = 3;  // a byte order mark
+  while (i < bytes.size() && std::isspace(std::to_integer<int>(bytes[i])) != 0) ++i;
+  return i < bytes.size() && bytes[i] == std::byte('{');
+}
+
+/// By how many bytes a buffer may be shorter than it says: some writers round up in one place only.
+constexpr std::uint64_t kPadding = 3;
 
 }  // namespace
 
@@ -77,11 +91,11 @@ Status GltfFile::Impl::readBuffers(std::optional<Bytes> binary) {
     } else {
       return bad(name + " has neither a uri nor a BIN chunk; export the file again");
     }
-    if (std::uint64_t(*length) > bytes.size()) {
+    if (std::uint64_t(*length) > bytes.size() + kPadding) {
       return bad(name + " should have " + std::to_string(*length) + " bytes but has " +
                  std::to_string(bytes.size()) + ": the file is truncated; export it again");
     }
-    buffers.push_back(bytes.first(std::size_t(*length)));
+    buffers.push_back(bytes.first(std::min(std::size_t(*length), bytes.size())));
   }
   return Status::ok();
 }
@@ -119,7 +133,7 @@ Result<GltfFile> GltfFile::open(const std::filesystem::path& path, const LoadOpt
     if (!split) return split.error();
     jsonBytes = *split;
     binary = chunk;
-  } else if (path.extension() == ".glb") {
+  } else if (path.extension() == ".glb" && !beginsAsJson(impl->file)) {
     return impl->bad("is not a .glb: it does not begin with \"glTF\"; export it again");
   }
   const char* first = reinterpret_cast<const char*>(jsonBytes.data());

@@ -20,6 +20,7 @@
 #include "lambent/scene_io/gltf_primitive.h"
 #include "lambent/scene_io/gltf_read.h"
 #include "lambent/scene_io/mesh_bytes.h"
+#include "lambent/scene_io/vertex_colors.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -158,6 +159,11 @@ Result<Mesh> Loader::readPrimitive(const json& node, const json& meshJson, const
   if (!mesh) return mesh;
   mesh->material = material;
   if (mesh->positions.empty()) return mesh;
+  // Bytes that nothing says are normalized, and floats of a program that counts to 255.
+  if (const float white = whiteOf(mesh->colors); white > 1.0f) {
+    noteWhite(white, diagnosis_);
+    for (Rgb& color : mesh->colors) color = linearColor(color, white);
+  }
   if (Status status =
           morph(file_, primitive, morphWeights(node, meshJson), place, *mesh, diagnosis_);
       !status) {

@@ -352,6 +352,34 @@ TEST(Gltf, UrisAsOtherMachinesWriteThem) {
   expectBadInput(folder.write("d.gltf", j.dump()), {"buffer 0", "no data"});
 }
 
+TEST(Gltf, ColoursThatAreCountedTo255) {
+  const TemporaryFolder folder;
+  GltfDocument d;
+  d.positions(kTriangle);
+  d.attribute("COLOR_0", std::vector<std::uint8_t>{255, 0, 51, 9, 0, 255, 0, 9, 1, 2, 3, 9},
+              Component::UnsignedByte, "VEC4", 3, false);
+  const auto loaded = load(d.write(folder));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_TRUE(loaded->scene.meshes[0].colors[0].isApprox(Rgb(1, 0, 0.0331f), 1e-4f));  // sRGB
+  EXPECT_EQ(countOf(loaded->findings, "colors-clamped"), 0u);
+}
+
+TEST(Gltf, ContainersThatAreNotQuiteRight) {
+  const TemporaryFolder folder;
+  GltfDocument d;
+  d.positions(kTriangle);
+  json j = d.j;
+  j["buffers"] = {{{"byteLength", 38}, {"uri", "a.bin"}}};  // two more than there are
+  std::string bytes(36, '\0');
+  std::memcpy(bytes.data(), kTriangle.data(), 36);
+  folder.write("a.bin", std::string_view(bytes));
+  EXPECT_TRUE(load(folder.write("a.gltf", j.dump())));
+  EXPECT_TRUE(load(folder.write("json.glb", " \n" + j.dump())));
+  EXPECT_TRUE(load(folder.write("marked.glb", "\xef\xbb\xbf" + j.dump())));
+  j["buffers"][0]["byteLength"] = 40;
+  expectBadInput(folder.write("b.gltf", j.dump()), {"buffer 0", "truncated"});
+}
+
 TEST(Gltf, SparseIndicesAndIndicesWithoutBytes) {
   const TemporaryFolder folder;
   GltfDocument d;
