@@ -19,7 +19,7 @@ def is_on_the_ground(row):
 
 def inside(row):
     """Away from the border, where a texel of the other side is mixed in."""
-    return abs(row[0]) < 0.9
+    return abs(row[0]) < 0.75
 
 
 ROWS = {
@@ -30,7 +30,7 @@ ROWS = {
     "02-obj-trailing-comment": [Radiance("comment.obj", GREY)],
     "03-obj-georeferenced": [
         Same("utm.obj", "origin.obj", finds=("far-origin",)),
-        Same("earth-centred.ply", "origin.obj", finds=("far-origin",)),
+        Same("earth-centred.ply", "near.ply", finds=("far-origin",)),
         Same("blocks-far.ply", "blocks-near.ply", finds=("far-origin",)),
     ],
     "11-mtl-texture-options": [Radiance("scale.obj", (1, 1, 1), where=inside)],
