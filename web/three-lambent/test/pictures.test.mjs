@@ -144,7 +144,9 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       ...spread,
     );
     const script = await bundle(readFileSync(new URL("page/pictures.js", import.meta.url), "utf8"));
-    browser = await openPage({ script, folder });
+    const data = (name) => readFileSync(new URL(`../data/${name}`, import.meta.url));
+    const files = { "sky.bin": data("sky.bin"), "air.bin": data("air.bin") };
+    browser = await openPage({ script, folder, files });
     await browser.page.waitForFunction("window.ready");
   });
   after(async () => {
@@ -163,8 +165,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       source,
       "-o",
       truth,
-      "--backend",
-      "cpu",
+      ...(options.includes("--backend") ? [] : ["--backend", "cpu"]),
       "--samples",
       1,
       "--size",
@@ -361,6 +362,35 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       source,
     );
   });
+
+  // Seen through the air of a sky, near and far. The tool's air is the library's own table.
+  for (const [name, asset, elevation, metresPerUnit, exposure, shafts] of [
+    ["near-noon", "matt-kept.glb", 55, 20, -5, false],
+    ["far-noon", "matt-kept.glb", 55, 2000, -5, false],
+    ["far-low", "matt-kept.glb", 4, 2000, -3, false],
+    ["far-mirror", "mirror.glb", 30, 1500, -4.5, false],
+    ["far-patch", "patch.glb", 30, 1500, -4.5, false],
+    ["shafts-noon", "matt-kept.glb", 55, 2000, -5, true],
+    ["shafts-low", "matt-kept.glb", 12, 1500, -4, true],
+  ])
+    it(`through the air: ${name}`, async () => {
+      const source = `sky:sun-elevation=${elevation},sun-azimuth=140`;
+      const state = {
+        sky: { sunElevation: elevation * kDegree, sunAzimuth: 140 * kDegree },
+        air: { metresPerUnit, shafts },
+        ...{ sharpSun: true, exposure },
+      };
+      const options = ["--air", "--metres-per-unit", metresPerUnit, "--exposure", exposure];
+      // Shadows in the air by a map, as here: beyond what is seen the map knows of none.
+      if (shafts) options.push("--shafts", "--backend", "gl");
+      const found = await agree(`air-${name}`, asset, options, state, source);
+      if (metresPerUnit < 1000) return;
+      const without = { ...state, air: shafts ? { metresPerUnit } : null };
+      const other = await browser.page.evaluate((s) => window.compare(s), {
+        ...{ asset, truth: `truth-air-${name}.png`, size: kSize, background: true, ...without },
+      });
+      assert.ok(other.all > (shafts ? 1.2 : 3) * found.all, `${other.all}/255 without, ${found.all}/255 with`);
+    });
 
   // Beside and upon each other, a sun, half of the sphere, and all of it.
   for (const turn of [0, 70])

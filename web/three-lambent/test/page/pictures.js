@@ -39,6 +39,9 @@ function shown(size) {
   return out;
 }
 
+const skies = lambent.LambentSky.load("sky.bin");
+const airs = lambent.LambentAir.load("air.bin");
+
 /** Draws what `state` says; returns what is on the canvas, and which pixels the asset covers. */
 async function draw(state) {
   const { size = 256, environment, light: lightUrl, discs = [] } = state;
@@ -70,10 +73,14 @@ async function draw(state) {
     light = lambent.LambentLight.fromEquirectangular(map, bands).rotate(worldFromEnvironment);
   if (lightUrl) light.add(lambent.LambentLight.fromJson(await (await fetch(lightUrl)).json()));
   for (const disc of discs) light.addDisc(disc);
+  const sky = state.sky ? (await skies).at(state.sky) : null;
+  if (sky) light.add(sky.light(bands));
   asset.setLight(light);
-  const around = { texture: map, rotation: worldFromEnvironment, discs };
+  const around = sky?.environment ?? { texture: map, rotation: worldFromEnvironment, discs };
   asset.setEnvironment(around);
-  if (state.sharpSun) asset.setSun(lambent.sunOf(discs));
+  if (state.sharpSun) asset.setSun(lambent.sunOf(around.discs));
+  const air = state.air ? (await airs).under(sky) : null;
+  if (air) asset.setAir(air, state.air);
   Object.assign(asset, state.asset_ ?? {});
   asset.update(renderer, camera);
 
@@ -100,6 +107,7 @@ async function draw(state) {
   let background = null;
   if (state.background) {
     background = new lambent.EnvironmentBackground(around);
+    background.setAsset(asset);
     scene.add(background);
     drawInto();
   }
@@ -114,6 +122,8 @@ async function draw(state) {
   mapper.dispose();
   target.dispose();
   map?.dispose();
+  sky?.dispose();
+  air?.dispose();
   asset.dispose();
   return { bytes, covered, error, memory: { ...renderer.info.memory } };
 }
