@@ -125,18 +125,19 @@ Result<std::string> airFixture() {
                         towards[i].z());
   json += fmt::format("],\n\"distances\":[{}],\n\"airs\":[", fmt::join(distances, ","));
   bool first = true;
-  for (const double sun : {90., 60., 30., 12., 5., 2., .5, 0., -1., -2.5, -4.})
-    for (const double turbidity : {2.5, 1.3, 6.}) {
+  sky::AirMaker maker;
+  for (const double turbidity : {2.5, 1.3, 6.})
+    for (const double sun : {90., 60., 30., 12., 5., 2., .5, 0., -1., -2.5, -4.}) {
       if (turbidity != 2.5 && sun != 60 && sun != 5 && sun != -1) continue;
       sky::SkyOptions options;
       options.atmosphere = sky::withTurbidity(*sky::preset("clear"), turbidity);
       options.sunElevation = sun * kPi / 180;
-      const auto air = sky::makeAerialPerspective(options, sky::AerialForm::Table);
+      const auto air = maker.make(options, sky::AerialForm::Table);
       if (!air) return air.error();
       std::string extinction, scattered;
       for (const Vec3d& direction : towards)
         for (const double distance : distances) {
-          const sky::AirBetween between = sky::airBetween(*air, direction, distance);
+          const sky::AirBetween between = sky::airBetween(air->value, direction, distance);
           extinction += (extinction.empty() ? "" : ",") + triple(between.extinction);
           scattered += (scattered.empty() ? "" : ",") + triple(between.inScattered());
         }
