@@ -147,6 +147,11 @@ Result<GltfFile> GltfFile::open(const std::filesystem::path& path, const LoadOpt
     return impl->bad("its JSON is damaged or the file is not glTF; export it again");
   }
   const std::string version = text(find(impl->document, "asset"), "version");
+  if (version.empty()) {
+    return impl->bad(
+        "does not say which version of glTF it is, as files of version 1 may; Lambent "
+        "reads version 2: export it again as glTF 2.0");
+  }
   if (!version.starts_with("2.")) {
     return impl->bad("is glTF version \"" + version.substr(0, 20) +
                      "\"; Lambent reads version 2: export it again as glTF 2.0");

@@ -19,6 +19,7 @@
 #include "lambent/scene_io/gltf_origin.h"
 #include "lambent/scene_io/gltf_primitive.h"
 #include "lambent/scene_io/gltf_read.h"
+#include "lambent/scene_io/gltf_types.h"
 #include "lambent/scene_io/mesh_bytes.h"
 #include "lambent/scene_io/vertex_colors.h"
 
@@ -264,6 +265,7 @@ Status Loader::addMesh(Mesh mesh, LoadedGltf::Origin origin, const std::string& 
 /// What a bake leaves out of the file, apart from what was met on the way.
 void Loader::noteLosses() {
   noteExtensions(document_, diagnosis_);
+  noteWrongTypes(document_, diagnosis_);
   if (const std::size_t count = arraySize(find(document_, "animations")); count > 0) {
     diagnosis_.lose(
         Severity::Note, "animations-ignored", count,
@@ -308,7 +310,12 @@ Result<LoadedGltf> Loader::load() {
   if (Status status = materials_->read(); !status) return status.error();
   if (Status status = visitNodes(); !status) return status.error();
   if (result_.loaded.scene.meshes.empty()) {
-    return bad("holds no triangles; Lambent needs a surface to bake");
+    noteWrongTypes(document_, diagnosis_);
+    const Findings wrong = diagnosis_.findings();
+    const auto types = std::find_if(wrong.begin(), wrong.end(),
+                                    [](const Finding& f) { return f.code == "wrong-types"; });
+    return bad("holds no triangles; Lambent needs a surface to bake" +
+               (types == wrong.end() ? std::string() : ". " + types->message));
   }
   noteLosses();
   result_.loaded.findings = diagnosis_.findings();

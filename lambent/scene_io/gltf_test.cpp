@@ -380,6 +380,19 @@ TEST(Gltf, ContainersThatAreNotQuiteRight) {
   expectBadInput(folder.write("b.gltf", j.dump()), {"buffer 0", "truncated"});
 }
 
+TEST(Gltf, MembersOfAnotherTypeAreSaid) {
+  const TemporaryFolder folder;
+  GltfDocument d;
+  d.positions(kTriangle);
+  d.j["materials"] = json::parse(R"([{"pbrMetallicRoughness": ["not an object"]}])");
+  d.j["nodes"][0]["children"] = "none";
+  const auto loaded = load(d.write(folder));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(countOf(loaded->findings, "wrong-types"), 2u);
+  d.j["meshes"][0]["primitives"] = json::parse(R"({"attributes": {"POSITION": 0}})");
+  expectBadInput(d.write(folder), {"no triangles", "members are of another type"});
+}
+
 TEST(Gltf, SparseIndicesAndIndicesWithoutBytes) {
   const TemporaryFolder folder;
   GltfDocument d;
