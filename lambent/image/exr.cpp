@@ -87,7 +87,9 @@ Result<Windows> windowsOf(const Imf::Header& header, size_t fileBytes, std::stri
       !fits) {
     return fits.error();
   }
-  if (Status fits = holdPixels(w.width(), w.height(), sizeof(Rgb) + 4, name, budget); !fits) {
+  const size_t turned = statedMap(header) == MapKind::Cube ? sizeof(Rgb) : 0;
+  if (Status fits = holdPixels(w.width(), w.height(), sizeof(Rgb) + 4 + turned, name, budget);
+      !fits) {
     return fits.error();
   }
   w.common.min.x = std::max(w.data.min.x, w.display.min.x);

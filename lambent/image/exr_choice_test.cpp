@@ -1,13 +1,13 @@
 // Which of the channels in an OpenEXR file become the picture, and what they become.
+#include <OpenEXR/ImfDeepFrameBuffer.h>
+#include <OpenEXR/ImfDeepScanLineOutputPart.h>
 #include <OpenEXR/ImfEnvmap.h>
 #include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
 #include "lambent/image/io.h"
-#include "lambent/image/project.h"
 #include "lambent/image/test_exr.h"
 #include "lambent/image/test_pictures.h"
 
@@ -105,6 +105,57 @@ TEST_F(ExrChoice, PartsByTheirNamesAndChannels) {
   expectTaken(readParts({{"albedo", other("")}, {"beauty", taken("")}}), "albedo first");
   expectTaken(readParts({{"albedo", other("rgba")}, {"rgba", taken("rgba")}}), "both rgba");
   expectTaken(readParts({{"diffuse", other("")}, {"C", taken("C")}}), "Karma");
+}
+
+/// A part of one deep sample a pixel, and after it, if `colour`, a flat one.
+void writeDeepFirst(const std::string& path, bool colour) {
+  std::vector<Imf::Header> headers(colour ? 2 : 1, Imf::Header(8, 4));
+  headers[0].setName("deep");
+  headers[0].setType(Imf::DEEPSCANLINE);
+  headers[0].compression() = Imf::ZIPS_COMPRESSION;
+  headers[0].channels().insert("R", Imf::Channel(Imf::FLOAT));
+  if (colour) {
+    headers[1].setName("flat");
+    headers[1].setType(Imf::SCANLINEIMAGE);
+    for (const auto& [name, value] : taken(""))
+      headers[1].channels().insert(name, Imf::Channel(Imf::FLOAT));
+  }
+  Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
+  std::vector<unsigned> counts(32, 1);
+  std::vector<float> samples(32, 7.0f);
+  std::vector<float*> pointers;
+  for (float& sample : samples) pointers.push_back(&sample);
+  Imf::DeepFrameBuffer deep;
+  deep.insertSampleCountSlice(Imf::Slice(Imf::UINT, reinterpret_cast<char*>(counts.data()),
+                                         sizeof(unsigned), 8 * sizeof(unsigned)));
+  deep.insert("R", Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(pointers.data()),
+                                  sizeof(float*), 8 * sizeof(float*), sizeof(float)));
+  Imf::DeepScanLineOutputPart first(file, 0);
+  first.setFrameBuffer(deep);
+  first.writePixels(4);
+  if (!colour) return;
+  std::map<std::string, std::vector<float>> planes;
+  Imf::FrameBuffer frame;
+  for (const auto& [name, value] : taken("")) {
+    planes[name].assign(32, value);
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, planes[name].data(), headers[1].dataWindow()));
+  }
+  Imf::OutputPart second(file, 1);
+  second.setFrameBuffer(frame);
+  second.writePixels(4);
+}
+
+TEST_F(ExrChoice, DeepPartsAreLeftAndTold) {
+  writeDeepFirst(path(), true);
+  const Result<PictureFile> picture = readPicture(path());
+  ASSERT_TRUE(picture) << picture.error().message;
+  expectTaken(*picture, "deep first");
+  ASSERT_EQ(picture->findings.size(), 1u);
+  EXPECT_NE(picture->findings[0].message.find("1 part(s) with deep pixels"), std::string::npos);
+  writeDeepFirst(path(), false);
+  const Result<PictureFile> deep = readPicture(path());
+  ASSERT_FALSE(deep);
+  EXPECT_NE(deep.error().message.find("deep pixels cannot be read; flatten"), std::string::npos);
 }
 
 TEST_F(ExrChoice, TheFirstViewIsTaken) {
@@ -216,76 +267,6 @@ TEST_F(ExrChoice, WindowsThatDifferAreTold) {
   EXPECT_EQ(map.map, MapKind::LatLong);
   EXPECT_EQ(map.image.width, 10);
   EXPECT_EQ(map.image.height, 3);
-}
-
-/// A smooth light, by directions of OpenEXR.
-Rgb envmapLight(const Imath::V3f& d) {
-  const Imath::V3f n = d.normalized();
-  return Rgb(1 + 0.5f * n.x, 1 + 0.5f * n.y + 0.3f * n.x * n.z, 1 + 0.7f * n.z);
-}
-
-/// By the library's own functions from pixels to directions.
-Image paintEnvmap(Imf::Envmap kind, int width, int height) {
-  const Imath::Box2i window({0, 0}, {width - 1, height - 1});
-  Image image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (kind == Imf::ENVMAP_LATLONG) {
-        const Imath::V2f at(static_cast<float>(x), static_cast<float>(y));
-        image.at(x, y) = envmapLight(Imf::LatLongMap::direction(window, at));
-        continue;
-      }
-      const auto face = static_cast<Imf::CubeMapFace>(y / width);
-      const Imath::V2f inFace(static_cast<float>(x), static_cast<float>(y % width));
-      const Imath::V2f at = Imf::CubeMap::pixelPosition(face, window, inFace);
-      image.at(int(std::lround(at.x)), int(std::lround(at.y))) =
-          envmapLight(Imf::CubeMap::direction(face, window, inFace));
-    }
-  return image;
-}
-
-void writeEnvmap(const std::string& path, Imf::Envmap kind, int width, int height) {
-  Image image = paintEnvmap(kind, width, height);
-  Imf::Header header(width, height);
-  Imf::addEnvmap(header, kind);
-  Imf::FrameBuffer frame;
-  for (int c = 0; c < 3; ++c) {
-    const std::string name(1, "RGB"[c]);
-    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-    frame.insert(name, Imf::Slice(Imf::FLOAT,
-                                  reinterpret_cast<char*>(image.pixels.data()) +
-                                      std::size_t(c) * sizeof(float),
-                                  sizeof(Rgb), sizeof(Rgb) * std::size_t(width)));
-  }
-  Imf::OutputFile file(path.c_str(), header);
-  file.setFrameBuffer(frame);
-  file.writePixels(height);
-}
-
-TEST_F(ExrChoice, EnvmapCubeAndLatLongAreTheSameLight) {
-  writeEnvmap(path(), Imf::ENVMAP_LATLONG, 128, 64);
-  const Result<PictureFile> latLong = readPicture(path());
-  ASSERT_TRUE(latLong) << latLong.error().message;
-  EXPECT_EQ(latLong->map, MapKind::LatLong);
-  writeEnvmap(path(), Imf::ENVMAP_CUBE, 48, 288);
-  const Result<PictureFile> cube = readPicture(path());
-  ASSERT_TRUE(cube) << cube.error().message;
-  EXPECT_EQ(cube->map, MapKind::Cube);
-  const auto a = project(latLong->image, MapKind::LatLong, 3);
-  const auto b = project(cube->image, MapKind::Cube, 3);
-  for (std::size_t i = 0; i < a.values.size(); ++i)
-    EXPECT_NEAR(a.values[i], b.values[i], 0.02f) << i;
-  EXPECT_GT(std::abs(a.values[2]) + std::abs(a.values[3]), 0.5f);  // it has a direction
-}
-
-TEST_F(ExrChoice, EnvmapCubesOfOtherShapesAreRefused) {
-  ExrPart part{"", taken("")};
-  Imf::addEnvmap(part.header, Imf::ENVMAP_CUBE);
-  writeExrParts(path(), {part});
-  const Result<PictureFile> picture = readPicture(path());
-  ASSERT_FALSE(picture);
-  EXPECT_NE(picture.error().message.find("says that it is a cube map, but has 8 x 4"),
-            std::string::npos);
 }
 
 }  // namespace
