@@ -43,6 +43,8 @@ const kSkies = [
   ["sky:date=2026-06-21,time=05:40,utc-offset=+2,lat=46.2,lon=6.1", -1],
   ["sky:sun-elevation=20,sun-azimuth=300,model=preetham,turbidity=3+uniform:0.1", -4],
   ["sky:sun-elevation=40,model=cie-overcast", -3],
+  ["sky:sun-elevation=25,sun-azimuth=200,model=perez,direct-normal=300,diffuse-horizontal=180", -4],
+  ["sky:sun-elevation=35,sun-azimuth=20,model=asrc-cie", -4],
 ];
 
 describe("a sky in the page", () => {
@@ -75,11 +77,48 @@ describe("a sky in the page", () => {
     assert.deepEqual(opened.complaints, []);
   });
 
+  it("is seen through its air, as by lambent render --air", async () => {
+    const page = await open({ viewport: { width: kSize, height: kSize } });
+    await page.keyboard.press("h");
+    const state = {
+      lambent: "view",
+      version: 1,
+      camera: { position: [2.4, 0.9, 2.4], target: [0, 0.7, 0], verticalFov: 40 },
+      environment: { source: "sky:sun-elevation=25,sun-azimuth=140", rotation: [0, 0.6, 0, 0.8] },
+      exposure: -4.5,
+      samples: 4,
+    };
+    writeFileSync(join(folder, "air.json"), JSON.stringify(state));
+    execFileSync(tool, ["render", "ball.glb", "--view", "air.json", "--air", "--metres-per-unit", "3000",
+      "--size", `${kSize}x${kSize}`, "-o", "air.png", "--quiet"], { cwd: folder });
+    const expected = decodePng(readFileSync(join(folder, "air.png")));
+    assert.ok(await page.evaluate((json) => window.lambent.showView(json), state));
+    const shown = async (on, part) => {
+      await page.evaluate(async ([air, how]) => {
+        await window.lambent.viewer.showAir(air, how);
+        await window.lambent.viewer.settled();
+      }, [on, part]);
+      return decodePng(await page.screenshot());
+    };
+    const clear = await shown(false, {});
+    const hazy = await shown(true, { metresPerUnit: 3000 });
+    const difference = meanDifference(expected, hazy, null);
+    console.log(`through the air: ${difference.toFixed(3)}/255`);
+    assert.ok(difference < kBound, `${difference}`);
+    assert.ok(meanDifference(expected, clear, null) > 5 * difference + 1, "there is air");
+    const shafts = await shown(true, { shafts: true });
+    assert.ok(meanDifference(hazy, shafts, null) > 0.05, "there are shafts");
+    const again = await shown(false, { shafts: false });
+    assert.equal(meanDifference(clear, again, null), 0);
+    assert.deepEqual(opened.complaints, []);
+  });
+
   it("that the page has not is told apart from one that cannot be", async () => {
     const page = await open();
     for (const [text, words] of [
       ["sky:sun-elevation=10,albedo=0.3", /knows no albedo.*lambent render/],
-      ["sky:sun-elevation=10,model=perez", /has not the model perez.*lambent render/],
+      ["sky:sun-elevation=10,model=exact", /has not the model exact.*lambent render/],
+      ["sky:sun-elevation=10,direct-normal=300", /of the models perez and asrc-cie/],
       ["sky:sun-elevation=10,atmosphere=hazy", /knows no atmosphere/],
       ["sky:sun-elevation=10,hue=3", /no key 'hue'/],
       ["sky:sun-elevation=-30", /night/],
@@ -129,6 +168,15 @@ describe("a sky in the page", () => {
     await page.waitForFunction(
       () => /night/.test(document.querySelector("#sky-facts").textContent));
     assert.match(await source(page), /time=17:50/, "the last sky stays");
+    const air = () => page.evaluate(() => window.lambent.viewer.airShown);
+    assert.equal(await air(), false);
+    assert.ok(await control("Metres in one unit").isHidden());
+    await control("Seen through the air").check();
+    await page.waitForFunction(() => window.lambent.viewer.current.air !== null);
+    await move("Metres in one unit", 2);
+    assert.equal(await page.evaluate(() => window.lambent.viewer.air.metresPerUnit), 100);
+    await control("Seen through the air").uncheck();
+    assert.equal(await air(), false);
     await control("Light from a sky").uncheck();
     await follows(before.environment.source);
     assert.deepEqual(await page.evaluate(() => window.lambent.view()), before);
