@@ -333,7 +333,7 @@ class Pictures(ToolTest):
         picture = ("render", "ball.glb", *self.SIZE, "--backend", "cpu", "-o")
 
         def view(**members):
-            (self.folder / "view.json").write_text(json.dumps(
+            self.write("view.json", json.dumps(
                 {"lambent": "view", "environment": {"source": sky}, **members}))
             return ("--view", "view.json")
 

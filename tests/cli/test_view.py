@@ -130,7 +130,6 @@ class View(ToolTest):
             screenshot clear.png
             set air on
             set metres-per-unit 2000
-            save-state air.json
             screenshot air.png
             turn environment y 75
             turn object 2,-1,1 50
@@ -140,8 +139,7 @@ class View(ToolTest):
             save-state shafts.json
             screenshot shafts.png
             set sun-shadow soft
-            save-state soft.json
-            screenshot soft.png
+            wait 1
             set sun-shadow sharp
             set air off
             set air on
@@ -157,7 +155,7 @@ class View(ToolTest):
             environment uniform
             screenshot none.png
             """, "ball.glb")
-        for name in ("air", "shafts", "soft", "evening"):
+        for name in ("shafts", "evening"):
             self.assert_as_rendered("ball.glb", name + ".png", name + ".json")
         self.assert_as_rendered("mirror.glb", "mirror.png", "mirror.json")
         self.assertGreater(mean_difference(self.path("clear.png"), self.path("air.png")), 5.0)
