@@ -29,8 +29,9 @@ ROWS = {
         Light("depth_first.exr", TAKEN, finds=("exr-layers",)),
         Light("normal_first.exr", TAKEN, finds=("exr-layers",)),
     ],
+    # Pixels of 5.6 degrees and a disc with an edge: OpenEXR's own functions find 4.1% in two bands.
     "23-exr-envmap-cube": [
-        SameLight("cube.exr", "latlong.exr"),
-        SameLight("cube:cube.exr", "latlong:latlong.exr"),
+        SameLight("cube.exr", "latlong.exr", within=0.06),
+        SameLight("cube:cube.exr", "latlong:latlong.exr", within=0.06),
     ],
 }
