@@ -77,7 +77,7 @@ describe("a sky in the page", () => {
     assert.deepEqual(opened.complaints, []);
   });
 
-  it("is seen through its air, as by lambent render --air", async () => {
+  it("is seen through the air of a view, as by lambent render --view", async () => {
     const page = await open({ viewport: { width: kSize, height: kSize } });
     await page.keyboard.press("h");
     const state = {
@@ -86,11 +86,12 @@ describe("a sky in the page", () => {
       camera: { position: [2.4, 0.9, 2.4], target: [0, 0.7, 0], verticalFov: 40 },
       environment: { source: "sky:sun-elevation=25,sun-azimuth=140", rotation: [0, 0.6, 0, 0.8] },
       exposure: -4.5,
+      air: { metresPerUnit: 3000 },
       samples: 4,
     };
     writeFileSync(join(folder, "air.json"), JSON.stringify(state));
-    execFileSync(tool, ["render", "ball.glb", "--view", "air.json", "--air", "--metres-per-unit", "3000",
-      "--size", `${kSize}x${kSize}`, "-o", "air.png", "--quiet"], { cwd: folder });
+    execFileSync(tool, ["render", "ball.glb", "--view", "air.json", "--size", `${kSize}x${kSize}`,
+      "-o", "air.png", "--quiet"], { cwd: folder });
     const expected = decodePng(readFileSync(join(folder, "air.png")));
     assert.ok(await page.evaluate((json) => window.lambent.showView(json), state));
     const shown = async (on, part) => {
@@ -100,13 +101,18 @@ describe("a sky in the page", () => {
       }, [on, part]);
       return decodePng(await page.screenshot());
     };
+    await page.evaluate(() => window.lambent.viewer.settled());
+    const hazy = decodePng(await page.screenshot());
     const clear = await shown(false, {});
-    const hazy = await shown(true, { metresPerUnit: 3000 });
     const difference = meanDifference(expected, hazy, null);
     console.log(`through the air: ${difference.toFixed(3)}/255`);
     assert.ok(difference < kBound, `${difference}`);
     assert.ok(meanDifference(expected, clear, null) > 5 * difference + 1, "there is air");
+    const { air } = await page.evaluate(() => window.lambent.view());
+    assert.equal(air, null, "a view without air is saved without");
     const shafts = await shown(true, { shafts: true });
+    const saved = await page.evaluate(() => window.lambent.view());
+    assert.deepEqual(saved.air, { metresPerUnit: 3000, shafts: true });
     assert.ok(meanDifference(hazy, shafts, null) > 0.05, "there are shafts");
     const again = await shown(false, { shafts: false });
     assert.equal(meanDifference(clear, again, null), 0);
@@ -168,15 +174,15 @@ describe("a sky in the page", () => {
     await page.waitForFunction(
       () => /night/.test(document.querySelector("#sky-facts").textContent));
     assert.match(await source(page), /time=17:50/, "the last sky stays");
-    const air = () => page.evaluate(() => window.lambent.viewer.airShown);
-    assert.equal(await air(), false);
+    const air = () => page.evaluate(() => window.lambent.view().air);
+    assert.equal(await air(), null);
     assert.ok(await control("Metres in one unit").isHidden());
     await control("Seen through the air").check();
     await page.waitForFunction(() => window.lambent.viewer.current.air !== null);
     await move("Metres in one unit", 2);
-    assert.equal(await page.evaluate(() => window.lambent.viewer.air.metresPerUnit), 100);
+    assert.equal(await page.evaluate(() => window.lambent.view().air.metresPerUnit), 100);
     await control("Seen through the air").uncheck();
-    assert.equal(await air(), false);
+    assert.equal(await air(), null);
     await control("Light from a sky").uncheck();
     await follows(before.environment.source);
     assert.deepEqual(await page.evaluate(() => window.lambent.view()), before);

@@ -37,7 +37,7 @@ export function facts(viewer: Viewer, environment: number): PanelFacts {
     sky: {
       problem: viewer.skyProblem,
       follows: viewer.follows,
-      air: viewer.airShown ? viewer.air : null,
+      air: viewer.view.air,
       noShafts: viewer.view.sunShadow === "sharp" ? null : "They take a sharp shadow of the Sun.",
     },
     info:

@@ -9,8 +9,7 @@ import { progressiveRead } from "./read_url";
 import { facts } from "./facts";
 import { save } from "./save";
 import type { SkySettings } from "./sky_source";
-import type { AirSettings } from "./stage";
-import { parseView, viewToJson } from "./view_state";
+import { parseView, viewToJson, type AirShown } from "./view_state";
 import { Viewer } from "./viewer";
 
 declare global {
@@ -77,7 +76,7 @@ function start(): void {
     chooseDisc: (index: number) => viewer.chooseDisc(index),
     showSky: (settings: SkySettings | null) => void viewer.showSky(settings),
     followSky: (on: boolean) => viewer.followSky(on),
-    showAir: (on: boolean, part?: Partial<AirSettings>) => void viewer.showAir(on, part),
+    showAir: (on: boolean, part?: Partial<AirShown>) => void viewer.showAir(on, part),
     frame: () => viewer.frame(),
     reset: () => viewer.reset(),
     play: (on: boolean) => viewer.play(on),

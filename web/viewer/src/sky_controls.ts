@@ -11,15 +11,14 @@ import {
   type SkyMoment,
   type SkySettings,
 } from "./sky_source";
-import type { AirSettings } from "./stage";
-import type { ViewState } from "./view_state";
+import type { AirShown, ViewState } from "./view_state";
 
 export interface SkyActions {
   /** Shows a sky in place of the environment; null: the environment that was there before. */
   showSky(settings: SkySettings | null): void;
   followSky(on: boolean): void;
   /** Shows the asset through the sky's air, or not; with what has changed of how. */
-  showAir(on: boolean, part?: Partial<AirSettings>): void;
+  showAir(on: boolean, part?: Partial<AirShown>): void;
 }
 
 /** What the controls show besides the view. */
@@ -29,7 +28,7 @@ export interface SkyFacts {
   /** Whether the exposure follows. */
   follows: boolean;
   /** null: it is not shown. */
-  air: AirSettings | null;
+  air: AirShown | null;
   /** Why there are no shafts of light; null if there can be. */
   noShafts: string | null;
 }

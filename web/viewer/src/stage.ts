@@ -38,12 +38,6 @@ import type { LookAt, Triple, ViewState } from "./view_state";
 /** Frames of a new picture that are added up before they take the place of the last one. */
 const kFirstShown = 4;
 
-/** How the air of the environment's sky is shown. */
-export interface AirSettings {
-  metresPerUnit: number;
-  shafts: boolean;
-}
-
 export class Stage {
   readonly renderer: WebGLRenderer;
   /** Whether 32-bit textures can be filtered. */
@@ -159,7 +153,7 @@ export class Stage {
   }
 
   /** What a view says about the object and its light. Costs no time that grows with the asset. */
-  apply(view: ViewState, unlit = false, air: AirSettings | null = null): void {
+  apply(view: ViewState, unlit = false): void {
     this.tone.exposure = view.exposure;
     this.tone.curve = view.tone;
     const discs: Disc[] = view.discs.map((disc) => ({
@@ -211,7 +205,7 @@ export class Stage {
     asset.setLight(this.light);
     asset.setSun(view.sunShadow === "sharp" ? sunOf(allDiscs) : null, weights);
     asset.setEnvironment(seen);
-    asset.setAir(air && this.airOfSky(), { ...air, rotation: turn });
+    asset.setAir(view.air && this.airOfSky(), { ...view.air, rotation: turn });
     this.background.setAsset(asset);
   }
 

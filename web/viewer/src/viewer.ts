@@ -12,10 +12,11 @@ import { orbit, pan, turnEnvironment, turnObject, zoom, type Grip } from "./orbi
 import { SkyMap } from "./sky_map";
 import { skySource, type SkySettings } from "./sky_source";
 import { airs } from "./skies";
-import { Stage, type AirSettings } from "./stage";
+import { Stage } from "./stage";
 import {
   defaultView,
   parseView,
+  type AirShown,
   type DiscState,
   type LookAt,
   type Rotation,
@@ -50,9 +51,6 @@ export class Viewer {
   grip: Grip = "camera";
   playing = false;
   unlit = false;
-  /** The air of the sky, as the controls have it; whether it is shown. Not part of a view. */
-  air: AirSettings = { metresPerUnit: 1, shafts: false };
-  airShown = false;
   /** Whether the exposure follows the sky, and why the last one that was wanted is not shown. */
   follows = true;
   skyProblem: string | null = null;
@@ -71,6 +69,7 @@ export class Viewer {
   private lost = false;
   private opening = 0;
   private skiesWanted = 0;
+  private lastAir: AirShown = { metresPerUnit: 1, shafts: false };
   private beforeSky: { source: string; rotation: Rotation; exposure: number } | null = null;
 
   /** Throws where the browser gives no WebGL 2. */
@@ -229,17 +228,30 @@ export class Viewer {
       this.changed();
     }
   }
-  /** Things are seen through the air of the sky: once its data is there. */
-  async showAir(on: boolean, part: Partial<AirSettings> = {}): Promise<void> {
-    this.air = { ...this.air, ...part };
-    this.airShown = on;
+  /** Things are seen through the air of the sky, or not; with what has changed of how. */
+  async showAir(on: boolean, part: Partial<AirShown> = {}): Promise<void> {
+    const air = { ...this.lastAir, ...this.view.air, ...part };
+    this.lastAir = air;
+    this.change((view) => (view.air = on ? { ...air } : null));
+    await this.fetchAir();
+  }
+  /** What the air of a view is made with: it is there once it is wanted. */
+  private async fetchAir(): Promise<void> {
+    if (this.view.air === null || this.stage.air !== null) return;
     try {
-      if (on) this.stage.air = await airs();
+      this.stage.air = await airs();
+      this.touch();
     } catch (error) {
-      this.airShown = false;
       this.messages.error(error instanceof Error ? error.message : String(error));
     }
-    this.touch();
+  }
+  /** Says so where a view that was opened has air that cannot be shown. */
+  private noteAir(): void {
+    if (this.view.air === null) return;
+    if (!this.stage.environment?.sky)
+      this.messages.note("The air of this view is not shown: it is that of a sky, which its light is not.");
+    else if (this.camera().orthographicHalfHeight !== null)
+      this.messages.note("The air of this view is not shown: an orthographic camera sees no distance.");
   }
   followSky(on: boolean): void {
     this.follows = on;
@@ -299,6 +311,7 @@ export class Viewer {
       this.view = next;
       this.disc = Math.min(this.disc, next.discs.length - 1);
       this.touch();
+      await this.fetchAir();
       await this.drawn();
       const errors = this.stage.shaderErrors();
       if (errors !== null)
@@ -331,6 +344,8 @@ export class Viewer {
       this.follows = [null, view.exposure].includes(this.skyExposure());
       this.disc = -1;
       this.touch();
+      this.noteAir();
+      await this.fetchAir();
     });
   }
   /** Dropped or picked: an asset, a light, or a saved view, by the file's name and content. */
@@ -459,7 +474,7 @@ export class Viewer {
     const began = performance.now();
     if (this.moved) {
       this.moved = false;
-      this.stage.apply(this.view, this.unlit, this.airShown ? this.air : null);
+      this.stage.apply(this.view, this.unlit);
       this.stage.drawMoving(this.camera());
       this.graph.add(now, performance.now() - began);
     } else if (!this.done && began - this.lastChange >= kStillAfter) {
