@@ -106,7 +106,7 @@ Result<Description> describeAsLight(image::PictureFile picture, const TakenFor& 
                                     const std::string& name, const ReadingArguments& reading,
                                     Console& console) {
   const bool latLong = taken.word == "latlong";
-  const std::string why = picture.map ? "which it says it is," : "by its shape";
+  const std::string why = picture.map ? "by its header" : "by its shape";
   Description d;
   d.json["taken_for"] = taken.word;
   if (picture.codes && !latLong) {
