@@ -91,7 +91,7 @@ Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const ViewRequest& 
       {.allowOutside = reading.allowOutside, .memoryLimit = reading.memoryLimit});
   if (!loaded) return loaded.error();
   files.readsFilesOf("--surroundings", loaded->linkedFiles);
-  console.report(loaded->findings);
+  if (Status whole = console.accept(loaded->findings); !whole) return whole.error();
   return std::unique_ptr<viewer::Surroundings>(
       new viewer::CapturedLight(std::move(loaded->scene), arguments.lightSamples));
 }

@@ -138,7 +138,7 @@ Result<ServedFiles> filesToServe(const fs::path& page, const fs::path& asset,
                                    .progress = console.progress()});
     });
     if (!light) return light.error();
-    console.report(light->findings);
+    if (Status whole = console.accept(light->findings); !whole) return whole.error();
     auto entry = addEnvironment(environments[k], k, reading, files);
     if (!entry) return entry.error();
     given.push_back(std::move(*entry));
