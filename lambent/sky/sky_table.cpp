@@ -344,9 +344,8 @@ SkyTable::Light SkyTable::light(double sunElevation, double nearness,
 }
 
 std::string tableKey(const Atmosphere& atmosphere, double altitude) {
-  Atmosphere nameless = atmosphere;
-  nameless.name.clear();
-  return fmt::format("lambent sky table 1\n{}\naltitude {:a}\n", toJson(nameless), altitude);
+  return fmt::format("lambent sky table 2\naltitude {:a}\n{}", altitude,
+                     scatteringKey(atmosphere, SkyTable::wavelengths(), Resolution::fast()));
 }
 
 std::vector<std::byte> SkyTable::bytes() const {
