@@ -19,13 +19,14 @@ class Formats(ToolTest):
     def shaded(self, scene):
         """Radiance by place and normal."""
         found = self.run_json("bake", scene, "-o", "out.glb", "--encoding", "float32",
-                              "--directions", "256", "--bounces", "1")["findings"]
+                              "--directions", "16384", "--bounces", "1")["findings"]
         self.assertFalse([f["code"] for f in found if f["loss"]], scene)
         self.run_tool("shade", "out.glb", "--light", "disc:30,45,20,30", "-o", "out.csv", "--quiet")
         return [(row[:6], row[6:]) for row in read_csv(self.path("out.csv"))]
 
     def compare(self, scene, plain, places, radiance):
-        """Each vertex with the plain one that is nearest in place and normal."""
+        """Each vertex with the plain one that is nearest in place and normal. A ray along an edge may
+        fall to either side where a position was rounded otherwise: it is one of thousands."""
         rows = self.shaded(scene)
         self.assertEqual(len(rows), len(plain), scene)
         brightest = max(max(color) for _, color in plain)

@@ -41,7 +41,7 @@ function worldFromSun(azimuth: number): Quaternion {
 }
 
 export class AssetAir {
-  /** Of shaders/aerial_perspective.glsl, air_texels.glsl and shafts.glsl. */
+  /** Of shaders/aerial_perspective.glsl, air_texels.glsl, air_behind.glsl and shafts.glsl. */
   readonly uniforms = {
     airTable: { value: null as Texture | null },
     airNodes: {
@@ -53,6 +53,7 @@ export class AssetAir {
     aerosolPhase: { value: new Vector4() },
     sunFromWorld: { value: new Matrix3() },
     metresPerUnit: { value: 1 },
+    airGround: { value: new Vector3() },
     shaftMap: { value: null as Texture | null },
     shaftMapFromWorld: { value: new Matrix4() },
     shaftEye: { value: new Vector3() },
@@ -62,7 +63,7 @@ export class AssetAir {
     shaftRate: { value: 0 },
     shaftPlanes: { value: Int32Array.of(kPlanes, kSamples) },
   };
-  /** Rotation alone: what a background needs beside them. */
+  /** Without its translation: what a background needs beside them. */
   readonly assetFromWorld = new Matrix3();
   private air: AerialPerspective | null = null;
   private metresPerUnit = 1;
@@ -96,8 +97,10 @@ export class AssetAir {
     root.matrixWorld.decompose(position, rotation, scale);
     const sunFromWorld = this.worldFromSky.clone().multiply(worldFromSun(air.sunAzimuth)).invert();
     u.sunFromWorld.value.copy(matrixOf(sunFromWorld.multiply(rotation)));
-    this.assetFromWorld.copy(matrixOf(rotation.invert()));
-    u.metresPerUnit.value = this.metresPerUnit * Math.max(scale.x, scale.y, scale.z);
+    const size = Math.max(scale.x, scale.y, scale.z);
+    this.assetFromWorld.copy(matrixOf(rotation.invert())).multiplyScalar(1 / size);
+    u.metresPerUnit.value = this.metresPerUnit * size;
+    u.airGround.value.copy(position).negate().applyMatrix3(this.assetFromWorld);
     const { radius, height, asymmetry } = air.table;
     u.airShell.value.set(radius, height, 0, 0);
     u.airScale.value = air.scale;

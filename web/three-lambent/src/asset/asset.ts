@@ -14,6 +14,7 @@ import type { AssetDescription } from "../format/description.js";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { RttTexture } from "../gpu/rtt-texture.js";
 import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
+import type { AirMode } from "../materials/air-source.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
 import type { AerialPerspective } from "../sky/air.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
@@ -204,7 +205,7 @@ export class LambentAsset {
       unlit: this.unlit,
       samples: this.samples,
       sun: this.sun.shines,
-      air: !this.air.wanted ? "none" : this.throwsShafts ? "shafts" : "air",
+      air: this.airMode,
     };
     let due = false;
     for (const mesh of this.relit) due = mesh.prepare(renderer, choices) || due;
@@ -242,13 +243,14 @@ export class LambentAsset {
     return { whole, sun, withoutSun: whole.map((value, i) => value - sun[i]) };
   }
 
-  /** @internal Shafts of light are wanted, and there is a Sun to throw them. */
-  get throwsShafts(): boolean {
-    return this.air.shafts && this.sun.shines;
+  /** @internal Shafts of light only where there is a Sun to throw them. */
+  get airMode(): AirMode {
+    if (!this.air.wanted) return "none";
+    return this.air.shafts && this.sun.shines ? "shafts" : "air";
   }
 
   private look(renderer: WebGLRenderer, camera: Camera | undefined): void {
-    const shafts = this.throwsShafts;
+    const shafts = this.airMode === "shafts";
     const hides = shafts || this.relit.some((mesh) => mesh.needsSunMap);
     this.sun.look(renderer, this.root, camera, [this.sample, this.samples], hides);
     this.air.look(this.root);

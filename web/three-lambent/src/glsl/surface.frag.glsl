@@ -6,7 +6,7 @@
 // incident.glsl, incident_texture.glsl, lobe.glsl; shading_normal.glsl, shading_point.glsl;
 // base_color.glsl, with a map base_color_map.glsl; for texels texel_receivers.glsl; LAMBENT_SUN (0: no
 // sharp Sun, else sun_light.glsl with what it wants), LAMBENT_SUN_SHARE; LAMBENT_AIR, with what
-// air_texels.glsl says, or 0; for a mirror environment.glsl, environment_map.glsl.
+// air_texels.glsl and air_behind.glsl say, or 0; for a mirror environment.glsl, environment_map.glsl.
 
 #include <common>
 #include <logdepthbuf_pars_fragment>
@@ -59,7 +59,11 @@ void main() {
 #if LAMBENT_KIND == 4
     gl_FragColor.rgb = reflectance * base;
 #elif LAMBENT_KIND == 2
-    gl_FragColor.rgb = reflectance * base * environmentRadiance(worldFromAsset * reflected);
+    vec3 shown = environmentRadiance(worldFromAsset * reflected);
+#if LAMBENT_AIR
+    if (eye.w > 0.0) shown = seenBehindAir(point.position, reflected, shown);
+#endif
+    gl_FragColor.rgb = reflectance * base * shown;
 #else
     vec3 diffuse = vec3(0.0);
 #if LAMBENT_KIND == 1

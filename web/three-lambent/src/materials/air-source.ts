@@ -2,6 +2,7 @@
 
 import {
   aerialPerspective,
+  airBehind,
   airMaps,
   airTexels,
   phaseFunction,
@@ -10,7 +11,10 @@ import {
 
 export type AirMode = "none" | "air" | "shafts";
 
-/** `vec3 seenThroughAir(vec3 away, vec3 sent)` where there is air; the defines in any case. */
+/**
+ * `vec3 seenThroughAir(vec3 away, vec3 sent)` and `vec3 seenBehindAir(vec3 from, vec3 direction, vec3
+ * radiance)` where there is air; the defines in any case.
+ */
 export function airSource(mode: AirMode): string {
   const defines =
     `#define LAMBENT_AIR ${mode === "none" ? 0 : 1}\n` +
@@ -23,5 +27,6 @@ export function airSource(mode: AirMode): string {
     mode === "shafts" ? shafts : "",
     airMaps,
     airTexels,
+    airBehind,
   ].join("\n");
 }

@@ -9,7 +9,7 @@ import {
   Vector4,
 } from "three";
 import type { LambentAsset } from "../asset/asset.js";
-import { airSource } from "../materials/air-source.js";
+import { airSource, type AirMode } from "../materials/air-source.js";
 import { backgroundFrag, backgroundVert } from "../generated/shaders.js";
 import {
   environmentGlsl,
@@ -23,7 +23,8 @@ import {
  */
 export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> {
   private readonly shown = new EnvironmentUniforms();
-  private before: LambentAsset | null = null;
+  private asset: LambentAsset | null = null;
+  private air: AirMode = "none";
 
   constructor(environment: Environment | null = null) {
     const geometry = new BufferGeometry();
@@ -32,7 +33,7 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
       new Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3),
     );
     super(geometry);
-    this.material = this.materialOf(null);
+    this.material = this.makeMaterial();
     this.frustumCulled = false;
     this.renderOrder = 1; // behind what is there: pixels that are covered cost nothing
     this.raycast = () => {};
@@ -52,23 +53,25 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
   }
 
   /**
-   * The asset whose shafts of light ({@link LambentAsset.setAir}) stand before it; null: none do. Say it
-   * again when the asset's Sun or air came or went. The sky itself is air already, and is not seen
-   * through it once more.
+   * The asset that is seen before it: its air ({@link LambentAsset.setAir}) lies before the ground below
+   * the horizon, and its shafts of light before the sky, which is air already; null: none does. Say it
+   * again when the asset's Sun or air came or went.
    */
   setAsset(asset: LambentAsset | null): void {
-    const before = asset?.throwsShafts ? asset : null;
-    if (before === this.before) return;
+    const air = asset?.airMode ?? "none";
+    const seen = air === "none" ? null : asset;
+    if (seen === this.asset && air === this.air) return;
+    this.asset = seen;
+    this.air = air;
     this.material.dispose();
-    this.material = this.materialOf(before);
-    this.before = before;
+    this.material = this.makeMaterial();
   }
 
-  private materialOf(asset: LambentAsset | null): ShaderMaterial {
-    const air = airSource(asset ? "shafts" : "none");
+  private makeMaterial(): ShaderMaterial {
+    const { asset } = this;
     return new ShaderMaterial({
       vertexShader: backgroundVert,
-      fragmentShader: `${environmentGlsl}${air}${backgroundFrag}`,
+      fragmentShader: `${environmentGlsl}${airSource(this.air)}${backgroundFrag}`,
       uniforms: {
         worldFromClip: { value: new Matrix4() },
         eye: { value: new Vector4() },

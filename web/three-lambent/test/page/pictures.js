@@ -156,7 +156,28 @@ export async function compare(state) {
   };
 }
 
+/**
+ * What a choice changes here and in the tool's PNGs, mean absolute in 1/255: in theirs, and how far the two
+ * changes are apart.
+ */
+export async function compareChange(before, after) {
+  const [here, there] = [[], []];
+  for (const state of [before, after]) {
+    here.push((await draw(state)).bytes);
+    there.push(await pixelsOf(state.truth));
+  }
+  let change = 0;
+  let apart = 0;
+  for (let i = 0; i < here[0].length; ++i) {
+    const right = there[1][i] - there[0][i];
+    change += Math.abs(right);
+    apart += Math.abs(here[1][i] - here[0][i] - right);
+  }
+  return { change: change / here[0].length, apart: apart / here[0].length };
+}
+
 window.compare = compare;
+window.compareChange = compareChange;
 window.draw = draw;
 window.THREE = THREE;
 window.lambent = lambent;
