@@ -239,11 +239,11 @@ Result<WithFindings<transfer::SimulatedRtt>> acquireRtt(const std::filesystem::p
     if (progress && !progress({"pictures", s, samples.size(), "pictures"}))
       return report::cancelled();
     const std::string where = table->string() + ", line " + std::to_string(samples[s].line) + ": ";
-    const Result<image::PictureFile> read =
+    const Result<image::PictureFile> opened =
         image::readPicture(samples[s].file, {.memoryLimit = options.memoryLimit});
-    if (!read) return report::badInput(where + read.error().message);
-    findings.insert(findings.end(), read->findings.begin(), read->findings.end());
-    const image::Image* const picture = &read->image;
+    if (!opened) return report::badInput(where + opened.error().message);
+    findings.insert(findings.end(), opened->findings.begin(), opened->findings.end());
+    const image::Image* const picture = &opened->image;
     if (Status fits = charge(*picture, samples[s].file, account); !fits)
       return report::badInput(where + fits.error().message);
     if (s == 0) {
