@@ -63,8 +63,8 @@ Result<PlyHeader> readPlyHeader(std::string_view text, const std::string& file) 
     return report::badInput(file + ": is not a PLY file: it does not begin with \"ply\"");
   }
   const std::size_t firstEnd = text.find_first_of("\r\n");
-  const bool returnAlone =
-      firstEnd + 1 < text.size() && text[firstEnd] == '\r' && text[firstEnd + 1] != '\n';
+  const std::string_view afterFirst = text.substr(std::min(firstEnd, text.size()));
+  const bool returnAlone = afterFirst.size() > 1 && afterFirst[0] == '\r' && afterFirst[1] != '\n';
   bool hasFormat = false;
   std::size_t properties = 0;
   while (cursor.nextLine()) {
