@@ -12,7 +12,8 @@ from pathlib import Path
 from harness import BAD_INPUT, DONE, TOOL, ToolTest, ball, glb, gltf_parts
 
 FILES = Path(__file__).resolve().parent.parent / "hostile"
-MOST_SECONDS, MOST_BYTES = 10.0, 1.5e9
+# What these would take unbounded is minutes; a machine that others use is half as fast as it was.
+MOST_SECONDS, MOST_BYTES = 20.0, 1.5e9
 
 
 def png_chunk(kind, data):
