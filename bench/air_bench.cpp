@@ -72,21 +72,26 @@ class Frames {
     scene_.emplace(valueOf(
         render::GlScene::makeLit(asset, environment.project(asset.transfer.bands), options)));
     expectOk(environment_.set(environment, options.largestTexture));
-    expectOk(target_.lookThroughAir());
+    expectOk(target_.prepare(around()));
   }
   void draw(const scene::Camera& camera, bool surfaces, int count) {
     const render::GlView view = render::viewThrough(camera, target_.width(), target_.height(),
                                                     bounds_, Vec2(0.5f, 0.5f), 1);
-    const render::GlTarget::Background behind{environment_, scene_->air()};
     for (int i = 0; i < count; ++i) {
       target_.beginFrame();
       if (surfaces) scene_->draw(view, environment_);
-      target_.addToSum(view, &behind);
+      target_.addToSum(view, around());
       glFinish();
     }
   }
 
  private:
+  render::GlTarget::Around around() const {
+    render::GlTarget::Around around = scene_->around();
+    around.background = &environment_;
+    return around;
+  }
+
   scene::Box bounds_;
   render::GlTarget target_;
   std::optional<render::GlScene> scene_;

@@ -38,6 +38,7 @@ Mat4 worldFromBody(const Motion& motion, double time) {
 
 scene::Scene frozen(const MovingScene& scene, double time) {
   scene::Scene result;
+  result.origin = scene.origin;
   for (const Body& body : scene.bodies) {
     scene::Material material;
     material.name = body.name;
@@ -65,6 +66,16 @@ scene::Box bounds(const MovingScene& scene, double time) {
   return result;
 }
 
+MovingScene about(MovingScene scene, const Vec3d& origin) {
+  const Vec3 offset = (scene.origin - origin).cast<float>();
+  scene.origin = origin;
+  for (Body& body : scene.bodies) {
+    body.motion.place += offset;
+    body.motion.orbit.center += offset;
+  }
+  return scene;
+}
+
 Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path,
                                           const MovingSceneOptions& options) {
   Result<scene_io::LoadedScene> loaded = scene_io::load(
@@ -73,6 +84,7 @@ Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path,
   LoadedMovingScene result;
   result.findings = std::move(loaded->findings);
   result.linkedFiles = std::move(loaded->linkedFiles);
+  result.scene.origin = loaded->scene.origin;
   std::uint64_t lamps = 0;
   for (scene::Mesh& mesh : loaded->scene.meshes) {
     const scene::Material& material = loaded->scene.materials[std::size_t(mesh.material)];

@@ -52,7 +52,12 @@ struct Body {
 
 struct MovingScene {
   std::vector<Body> bodies;
+  Vec3d origin = Vec3d::Zero();  ///< as of scene::Scene: where (0, 0, 0) lies, metres
 };
+
+/// The same bodies at the same places of the world, with (0, 0, 0) at `origin`: beside an asset that
+/// stands far away.
+MovingScene about(MovingScene scene, const Vec3d& origin);
 
 /// How it stands at a time: every body a mesh of a black material that emits. For the path tracer,
 /// and for capture by rays.

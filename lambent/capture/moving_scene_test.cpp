@@ -100,6 +100,22 @@ TEST(MovingScene, ComesFromAFile) {
   EXPECT_FALSE(loadMovingScene(path));
 }
 
+TEST(MovingScene, StaysInItsPlaceAboutAnotherOrigin) {
+  const scene::Box object{Vec3(-1, -1, -1), Vec3(1, 1, 1)};
+  MovingScene scene = demoSurroundings(object);
+  scene.origin = Vec3d(500'000, 0, -4'000'000);
+  const Vec3d offset(16, -8, 4);
+  const MovingScene moved = about(scene, scene.origin - offset);
+  EXPECT_EQ(moved.origin, scene.origin - offset);
+  ASSERT_EQ(moved.bodies.size(), scene.bodies.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    for (const double time : {0.0, 1.3, 17.0}) {
+      Mat4 expected = worldFromBody(scene.bodies[i].motion, time);
+      expected.topRightCorner<3, 1>() += offset.cast<float>();
+      EXPECT_TRUE(worldFromBody(moved.bodies[i].motion, time).isApprox(expected, 1e-5f));
+    }
+}
+
 TEST(Surroundings, NeverTouchTheObject) {
   const scene::Box box{Vec3(2, -1, 0), Vec3(5, 3, 1)};
   const MovingScene scene = demoSurroundings(box);

@@ -60,16 +60,6 @@ Result<GlAir> GlAir::make(const shade::Air& air, int largestTexture) {
   made.table_ = makeTexture(GL_RGBA32F, width, height);
   made.upload();
   if (Status s = checkGl("uploading the air"); !s) return s.error();
-  if (air.shafts) {
-    const Program::Stage stages[] = {
-        {GL_VERTEX_SHADER, "show.vert.glsl", {std::string(shaderSource("show.vert.glsl"))}},
-        {GL_FRAGMENT_SHADER,
-         "shaft_curtain.frag.glsl",
-         {made.source(), std::string(shaderSource("shaft_curtain.frag.glsl"))}}};
-    Result<Program> program = Program::make(stages);
-    if (!program) return program.error();
-    made.curtain_ = std::move(*program);
-  }
   return made;
 }
 
@@ -131,21 +121,6 @@ void GlAir::bindTable(const Program& program) const {
   program.set("metresPerUnit", float(air_.metresPerUnit));
   program.set("airGround", air_.ground.x(), air_.ground.y(), air_.ground.z());
   glBindTextureUnit(kAirUnit, table_.name());
-}
-
-void GlAir::drawCurtain(const GlView& view, const GlSunMap* sunMap) const {
-  if (!air_.shafts) return;
-  curtain_.use();
-  bind(curtain_, view, sunMap);
-  curtain_.set("corner", view.corner.x(), view.corner.y(), view.corner.z());
-  curtain_.set("right", view.right.x(), view.right.y(), view.right.z());
-  curtain_.set("up", view.up.x(), view.up.y(), view.up.z());
-  // At the far plane, where the frame was cleared to and nothing came nearer.
-  glDepthFunc(GL_LEQUAL);
-  glDepthRange(1.0, 1.0);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDepthRange(0.0, 1.0);
-  glDepthFunc(GL_LESS);
 }
 
 }  // namespace lambent::render

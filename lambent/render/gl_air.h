@@ -24,16 +24,12 @@ class GlAir {
   bool takes(const shade::Air& air) const;
   /// Uploads the table, if it is another.
   Status set(const shade::Air& air);
-  /// What programs include.
-  std::string source() const { return airSource(air_.shafts.has_value()); }
-  /// For the program that draws next, which includes source(). With shafts of light there must be
-  /// view.shafts and, of view.sun, a map.
+  bool hasShafts() const { return air_.shafts.has_value(); }
+  /// For the program that is used next, which includes airSource(hasShafts()). With shafts of light
+  /// there must be view.shafts and, of view.sun, a map.
   void bind(const Program& program, const GlView& view, const GlSunMap* sunMap) const;
   /// … which includes airSource(false).
   void bindTable(const Program& program) const;
-  /// With shafts: what they take from the background, where nothing is drawn yet. A vertex array must
-  /// be bound.
-  void drawCurtain(const GlView& view, const GlSunMap* sunMap) const;
 
  private:
   explicit GlAir(const shade::Air& air) : air_(air) {}
@@ -41,7 +37,6 @@ class GlAir {
 
   shade::Air air_;
   Texture table_;
-  Program curtain_;  ///< of shafts
 };
 
 }  // namespace lambent::render

@@ -252,7 +252,7 @@ TEST_F(GlCapture, DrawsTheBodiesWithDepth) {
     target->beginFrame();
     target->clearSum();
     capture.draw(target->framebuffer(), 8, 8, clip, 0);
-    target->addToSum({}, nullptr);
+    target->addToSum({}, {});
     const Result<image::Image> image = target->mean(1);
     EXPECT_TRUE(image);
     return image->at(4, 4);

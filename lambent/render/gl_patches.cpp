@@ -214,15 +214,14 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
   const std::string defines = fmt::format(
       "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
       "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_RTT_PLACE int\n#define LAMBENT_ID_MAP 1\n"
-      "#define LAMBENT_AIR {:d}\n{}\n{}\n",
-      groupsOf(bands), interpolated, filter, options_.air != nullptr, numbersDefine(encoding),
+      "{}\n{}\n",
+      groupsOf(bands), interpolated, filter, numbersDefine(encoding),
       unrolledDefines(bands, encoding));
   std::vector<std::string> fragment = {defines};
-  if (options_.air) fragment.push_back(options_.air->source());
   for (const char* name :
        {"incident.glsl", "corner_weights.glsl", "rtt_response.glsl", "view_square.glsl",
         "rtt_footprint.glsl", "rtt_look_up.glsl", "tangent_frame.glsl", "shading_normal.glsl",
-        "patch_place.glsl", "patch.frag.glsl"})
+        "patch_place.glsl", "coverage.glsl", "patch.frag.glsl"})
     fragment.emplace_back(shaderSource(name));
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",
@@ -231,22 +230,6 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();
   programs_.emplace(key, std::move(*program));
-  return Status::ok();
-}
-
-Status GlPatches::setAir(std::shared_ptr<const GlAir> air) {
-  const auto sourceOf = [](const auto& of) { return of ? of->source() : std::string(); };
-  const bool same = sourceOf(options_.air) == sourceOf(air);
-  options_.air.swap(air);
-  if (same) return Status::ok();
-  std::map<ProgramKey, Program> before;
-  before.swap(programs_);
-  for (const auto& [key, program] : before)
-    if (Status s = std::apply([this](auto... of) { return addProgram(of...); }, key); !s) {
-      programs_.swap(before);
-      options_.air.swap(air);
-      return s;
-    }
   return Status::ok();
 }
 
@@ -329,7 +312,7 @@ void GlPatches::setLight(std::vector<Relit> light) {
   }
 }
 
-void GlPatches::draw(const GlView& view, const GlSunMap* sunMap, GLuint vertexArray) const {
+void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
   for (const Draw& draw : draws_) {
     const BiScale& biScale = biScaleOf(draw.mesh);
     const EncodedRtt& encoded = rttOf(draw.mesh);
@@ -340,7 +323,6 @@ void GlPatches::draw(const GlView& view, const GlSunMap* sunMap, GLuint vertexAr
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
     program.set("pixelWidth", view.sampleWidth.perMetre, view.sampleWidth.constant);
-    if (options_.air) options_.air->bind(program, view, sunMap);
     program.set("views", encoded.views);
     program.set("viewDependent", int(showing_.viewDependent));
     program.set("hasIdMap", int(biScale.patch.idMap() != nullptr));

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "lambent/asset/asset.h"
-#include "lambent/render/gl_air.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
@@ -19,9 +18,8 @@
 namespace lambent::render {
 
 struct GlPatchOptions {
-  std::size_t largestBlock = 0;           ///< bytes of one storage buffer
-  int largestTexture = 0;                 ///< side, in texels
-  std::shared_ptr<const GlAir> air = {};  ///< between them and the eye; null for none
+  std::size_t largestBlock = 0;  ///< bytes of one storage buffer
+  int largestTexture = 0;        ///< side, in texels
 };
 
 class GlPatches {
@@ -32,8 +30,6 @@ class GlPatches {
 
   /// Uploads a mesh with meso-structure and all that it needs.
   Status add(std::uint32_t mesh, TransferOnGpu& transfer);
-  /// As GlSurfaces::setAir.
-  Status setAir(std::shared_ptr<const GlAir> air);
   /// Filter and dependence on the view, which need no other transfer.
   Status choose(const shade::Showing& showing);
 
@@ -47,9 +43,9 @@ class GlPatches {
     for (Draw& draw : draws_) each(draw.mesh, draw.light);
   }
 
-  /// Draws them into the bound framebuffer: radiance, and 1 in alpha. A vertex array must be bound;
-  /// its element buffer is changed. `sunMap`: of shafts of light in the air.
-  void draw(const GlView& view, const GlSunMap* sunMap, GLuint vertexArray) const;
+  /// Draws them into the bound framebuffer: as GlSurfaces::draw. A vertex array must be bound;
+  /// its element buffer is changed.
+  void draw(const GlView& view, GLuint vertexArray) const;
   /// Calls draw(mesh, vertices, corners, count) for every piece: vertices hold positions and
   /// texture coordinates where unlit.vert.glsl seeks them.
   template <class DrawUnlit>

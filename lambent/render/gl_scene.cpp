@@ -134,11 +134,6 @@ Status GlScene::setAir(const std::optional<shade::Air>& air) {
     next = std::make_shared<GlAir>(std::move(*made));
   }
   if (Status s = surfaces_.setAir(next); !s) return s;
-  if (Status s = patches_.setAir(next); !s) {
-    // These programs were there before.
-    (void)surfaces_.setAir(air_);
-    return s;
-  }
   air_ = std::move(next);
   return Status::ok();
 }
@@ -173,8 +168,7 @@ void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
   }
   const GlSunMap* sunMap = sunMap_ ? &*sunMap_ : nullptr;
   surfaces_.draw(view, environment, colors_, sunMap, options_.showing, noAttributes_.name());
-  patches_.draw(view, sunMap, noAttributes_.name());
-  if (air_ && view.background) air_->drawCurtain(view, sunMap);
+  patches_.draw(view, noAttributes_.name());
 }
 
 void GlScene::drawUnlit(const GlView& view) const {

@@ -12,6 +12,7 @@
 #include "lambent/render/gl_patches.h"
 #include "lambent/render/gl_sun_map.h"
 #include "lambent/render/gl_surfaces.h"
+#include "lambent/render/gl_target.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
 #include "lambent/shade/showing.h"
@@ -46,11 +47,10 @@ class GlScene {
   /// What a sharp Sun is of the light that is set (none: there is no such). The first one uploads what
   /// it needs; if that fails, all stays as it was. Then relight() is due.
   Status setSunShare(const std::optional<sh::RgbCoefficients>& share);
-  /// The air before all of it (none: there is none). Makes programs where there was none, or none with
-  /// shafts, before; if that fails, all stays as it was.
+  /// The air before all of it (none: there is none). If making what it needs fails, all stays as it was.
   Status setAir(const std::optional<shade::Air>& air);
-  /// For what else is drawn; null without.
-  const GlAir* air() const { return air_.get(); }
+  /// What a frame of it is to be added up with: its air is looked through there.
+  GlTarget::Around around() const { return {nullptr, air_.get(), sunMap_ ? &*sunMap_ : nullptr}; }
   /// As LiveRenderer::setLightField.
   Status setLightField(const capture::Blending& blending, GLuint lights, int bands);
   /// M · L of every receiver: GL commands alone, one dispatch for each chunk of transfer.
@@ -60,7 +60,7 @@ class GlScene {
   /// Draws what hides view.sun, if there is one, and binds another framebuffer for that: before the
   /// frame that is drawn so.
   Status mapSun(const GlView& view);
-  /// Draws all surfaces into the bound framebuffer: radiance, and 1 in alpha. Mirrors show
+  /// Draws all surfaces into the bound framebuffer: as GlSurfaces::draw. Mirrors show
   /// `environment`.
   void draw(const GlView& view, const GlEnvironment& environment) const;
 
@@ -72,7 +72,7 @@ class GlScene {
         transfer_(options.largestBlock, residence),
         colors_(asset.scene),
         surfaces_(asset, options.largestBlock, air),
-        patches_(asset, {options.largestBlock, options.largestTexture, air}, options.showing),
+        patches_(asset, {options.largestBlock, options.largestTexture}, options.showing),
         bounds_(scene::bounds(asset.scene)),
         air_(std::move(air)) {}
   Status addAll();

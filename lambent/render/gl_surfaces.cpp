@@ -109,7 +109,7 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
       "#define LAMBENT_KIND {}\n#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
       "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_MAP 1\n#define LAMBENT_AIR {:d}\n"
       "#define LAMBENT_EACH_GROUP(DO)",
-      int(kind), groups, interpolated, air_ != nullptr);
+      int(kind), groups, interpolated, kind == SurfaceKind::Mirror && air_ != nullptr);
   for (int i = 0; i < groups; ++i) defines += fmt::format(" DO({})", i);
   Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {defines}};
   const auto include = [&](std::string_view name) {
@@ -119,11 +119,13 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
     fragment.parts.push_back(harmonicsSource(lobeBands));
     for (const char* name : {"incident.glsl", "lobe.glsl"}) include(name);
   }
-  if (kind == SurfaceKind::Mirror) fragment.parts.push_back(environmentSource());
+  if (kind == SurfaceKind::Mirror) {
+    fragment.parts.push_back(environmentSource());
+    if (air_) fragment.parts.push_back(airSource(false));
+  }
   if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
-  if (air_) fragment.parts.push_back(air_->source());
   for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
-                           "texel_receivers.glsl", "corner_weights.glsl", "surface.frag.glsl"})
+                           "texel_receivers.glsl", "corner_weights.glsl", "coverage.glsl", "surface.frag.glsl"})
     include(name);
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "surface.vert.glsl",
@@ -136,19 +138,20 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
 }
 
 Status GlSurfaces::setAir(std::shared_ptr<const GlAir> air) {
-  const auto sourceOf = [](const auto& of) { return of ? of->source() : std::string(); };
-  const bool same = sourceOf(air_) == sourceOf(air);
+  const bool same = bool(air_) == bool(air);
   air_.swap(air);
-  if (same) return Status::ok();
-  std::map<std::pair<SurfaceKind, int>, Program> before;
-  before.swap(programs_);
-  for (const auto& [key, program] : before)
-    if (Status s = addProgram(key.first, key.second); !s) {
-      programs_.swap(before);
-      air_.swap(air);
-      return s;
-    }
-  return Status::ok();
+  auto mirror = programs_.extract({SurfaceKind::Mirror, 0});
+  if (mirror.empty()) return Status::ok();
+  if (same) {
+    programs_.insert(std::move(mirror));
+    return Status::ok();
+  }
+  Status made = addProgram(SurfaceKind::Mirror, 0);
+  if (!made) {
+    programs_.insert(std::move(mirror));
+    air_.swap(air);
+  }
+  return made;
 }
 
 Status GlSurfaces::addTexels(std::uint32_t index, const transfer::AtTexels& grid,
@@ -307,9 +310,11 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
       program.set("sunCanHide", int(hidden));
       if (hidden) sunMap->bind(program);
     }
-    if (air_) air_->bind(program, view, sunMap);
     colors.bind(program, draw.mesh);
-    if (draw.kind == SurfaceKind::Mirror) environment.bind(program, view.environmentFromWorld);
+    if (draw.kind == SurfaceKind::Mirror) {
+      environment.bind(program, view.environmentFromWorld);
+      if (air_) air_->bindTable(program);
+    }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, geometry.corners.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2,

@@ -25,7 +25,7 @@ namespace lambent::render {
 class GlSurfaces {
  public:
   /// `asset` must outlive it, and fit together (asset::faultOf).
-  /// `air`: between them and the eye; null for none.
+  /// `air`: before the ground that mirrors show; null for none.
   GlSurfaces(const asset::Asset& asset, std::size_t largestBlock, std::shared_ptr<const GlAir> air)
       : asset_(&asset), largestBlock_(largestBlock), air_(std::move(air)) {}
 
@@ -40,8 +40,8 @@ class GlSurfaces {
   };
   /// The light of all pieces under other transfer, to be given to setLight.
   Result<std::vector<Lit>> lightUnder(const shade::Showing& showing, TransferOnGpu& transfer) const;
-  /// Other air; null for none. Makes programs where it is there, or its shafts are, and was not before;
-  /// if that fails, all stays as it was.
+  /// Other air; null for none. Makes programs where there was none before; if that fails, all stays as
+  /// it was.
   Status setAir(std::shared_ptr<const GlAir> air);
   /// Whether what is lit from now on is lit by a sharp Sun, whose own light the caller draws.
   void setSharpSun(bool sharp) { sharpSun_ = sharp; }
@@ -57,7 +57,7 @@ class GlSurfaces {
   }
 
   bool hasMirrors() const { return hasMirrors_; }
-  /// Draws them into the bound framebuffer: radiance, and 1 in alpha. A vertex array must be bound;
+  /// Draws them into the bound framebuffer: radiance, and in alpha what coverage.glsl says. A vertex array must be bound;
   /// its element buffer is changed. Mirrors show `environment`.
   /// With view.sun: lit by it, where `sunMap` (null: nowhere) does not have it hidden.
   void draw(const GlView& view, const GlEnvironment& environment, const GlBaseColors& colors,

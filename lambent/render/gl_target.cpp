@@ -10,21 +10,6 @@
 namespace lambent::render {
 namespace {
 
-enum class Behind { Nothing, Environment, EnvironmentThroughAir };
-
-Result<Program> accumulateProgram(Behind behind) {
-  const bool air = behind == Behind::EnvironmentThroughAir;
-  std::vector<std::string> parts = {
-      fmt::format("#define LAMBENT_BACKGROUND {:d}\n#define LAMBENT_AIR {:d}\n",
-                  behind != Behind::Nothing, air),
-  };
-  if (air) parts.push_back(airSource(false));
-  if (behind != Behind::Nothing) parts.push_back(environmentSource());
-  parts.emplace_back(shaderSource("accumulate.comp.glsl"));
-  const Program::Stage stage{GL_COMPUTE_SHADER, "accumulate.comp.glsl", std::move(parts)};
-  return Program::make({&stage, 1});
-}
-
 Result<Program> showProgram() {
   const Program::Stage stages[] = {
       {GL_VERTEX_SHADER, "show.vert.glsl", {std::string(shaderSource("show.vert.glsl"))}},
@@ -72,13 +57,7 @@ Result<GlTarget> GlTarget::make(int width, int height) {
   GLuint vertexArray = 0;
   glCreateVertexArrays(1, &vertexArray);
   target.noAttributes_ = VertexArray(vertexArray);
-  for (const auto& [behind, made] :
-       {std::pair(Behind::Nothing, &target.accumulate_),
-        std::pair(Behind::Environment, &target.accumulateWithBackground_)}) {
-    Result<Program> program = accumulateProgram(behind);
-    if (!program) return program.error();
-    *made = std::move(*program);
-  }
+  if (Status s = target.prepare({}); !s) return s.error();
   Result<Program> program = showProgram();
   if (!program) return program.error();
   target.show_ = std::move(*program);
@@ -96,11 +75,25 @@ void GlTarget::beginFrame() const {
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &far);
 }
 
-Status GlTarget::lookThroughAir() {
-  if (accumulateThroughAir_) return Status::ok();
-  Result<Program> program = accumulateProgram(Behind::EnvironmentThroughAir);
+GlTarget::Kind GlTarget::kindOf(const Around& around) {
+  return {around.background != nullptr, around.air != nullptr,
+          around.air && around.air->hasShafts()};
+}
+
+Status GlTarget::prepare(const Around& around) {
+  const Kind kind = kindOf(around);
+  if (accumulate_.contains(kind)) return Status::ok();
+  std::vector<std::string> parts = {
+      fmt::format("#define LAMBENT_BACKGROUND {:d}\n#define LAMBENT_AIR {:d}\n", kind.background,
+                  kind.air),
+  };
+  if (kind.air) parts.push_back(airSource(kind.shafts));
+  if (kind.background) parts.push_back(environmentSource());
+  parts.emplace_back(shaderSource("accumulate.comp.glsl"));
+  const Program::Stage stage{GL_COMPUTE_SHADER, "accumulate.comp.glsl", std::move(parts)};
+  Result<Program> program = Program::make({&stage, 1});
   if (!program) return program.error();
-  accumulateThroughAir_.emplace(std::move(*program));
+  accumulate_.emplace(kind, std::move(*program));
   return Status::ok();
 }
 
@@ -110,20 +103,24 @@ void GlTarget::clearSum() const {
   glClearTexImage(behind_.name(), 0, GL_RGBA, GL_FLOAT, zero);
 }
 
-void GlTarget::addToSum(const GlView& view, const Background* background) {
+void GlTarget::addToSum(const GlView& view, const Around& around) {
   glMemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  const bool air = background && background->air;
-  cutLast_ = air && view.shafts;
-  const Program& program = air          ? *accumulateThroughAir_
-                           : background ? accumulateWithBackground_
-                                        : accumulate_;
+  const Kind kind = kindOf(around);
+  const bool curtain = kind.shafts && view.background;
+  cutLast_ = curtain;
+  const Program& program = accumulate_.at(kind);
   glBindImageTexture(0, color_.name(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
   glBindImageTexture(1, sum_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-  if (background) {
+  if (kind.background) {
     glBindImageTexture(2, behind_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-    background->environment.bind(program, view.environmentFromWorld);
-    if (air) background->air->bindTable(program);
-    if (air) program.set("from", view.eye.x(), view.eye.y(), view.eye.z());
+    around.background->bind(program, view.environmentFromWorld);
+  }
+  if (kind.air) {
+    around.air->bind(program, view, around.sunMap);
+    program.set("from", view.eye.x(), view.eye.y(), view.eye.z());
+    if (kind.shafts) program.set("curtain", int(curtain));
+  }
+  if (kind.background || kind.air) {
     program.set("corner", view.corner.x(), view.corner.y(), view.corner.z());
     program.set("right", view.right.x(), view.right.y(), view.right.z());
     program.set("up", view.up.x(), view.up.y(), view.up.z());

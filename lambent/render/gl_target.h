@@ -1,7 +1,8 @@
 // What frames are drawn into, the sum of them, and the picture that the sum makes.
 #pragma once
 
-#include <optional>
+#include <compare>
+#include <map>
 
 #include "lambent/image/image.h"
 #include "lambent/render/gl_air.h"
@@ -18,23 +19,24 @@ class GlTarget {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Linear radiance with coverage in alpha, and depth.
+  /// Linear radiance, alpha as shaders/opengl/coverage.glsl says, and depth.
   GLuint framebuffer() const { return framebuffer_.name(); }
 
   /// Binds the frame to be drawn into: black and without coverage, at the far plane.
   void beginFrame() const;
   /// The sum: nothing.
   void clearSum() const;
-  /// Makes what addToSum() needs with air.
-  Status lookThroughAir();
-  /// What the environment shows, and the air before its ground, if there is any.
-  struct Background {
-    const GlEnvironment& environment;
+  /// What a frame is seen through and before; null: without.
+  struct Around {
+    const GlEnvironment* background = nullptr;
     const GlAir* air = nullptr;
+    const GlSunMap* sunMap = nullptr;  ///< of the air's shafts, if it has any
   };
-  /// Adds the frame to the sum and, if there is one, the background where the frame leaves pixels
+  /// Makes what addToSum() needs, if it has not been made yet.
+  Status prepare(const Around& around);
+  /// Adds the frame, through the air, to the sum, and the background where the frame leaves pixels
   /// uncovered.
-  void addToSum(const GlView& view, const Background* background);
+  void addToSum(const GlView& view, const Around& around);
   /// The mean of `samples` frames: radiance and coverage. Where backgrounds were added, they are
   /// left out.
   Result<image::Image> mean(int samples) const;
@@ -47,8 +49,13 @@ class GlTarget {
   Texture color_, depth_, sum_, behind_;
   Framebuffer framebuffer_;
   VertexArray noAttributes_;
-  Program accumulate_, accumulateWithBackground_, show_;
-  std::optional<Program> accumulateThroughAir_;
+  Program show_;
+  struct Kind {
+    bool background, air, shafts;
+    auto operator<=>(const Kind&) const = default;
+  };
+  static Kind kindOf(const Around& around);
+  std::map<Kind, Program> accumulate_;
   bool cutLast_ = false;  ///< the sum holds what shadows in the air take from the background
   int width_ = 0, height_ = 0;
 };

@@ -93,13 +93,18 @@ struct LiveRenderer::Impl {
       if (Status s = scene.setAir(seen); !s) return s;
       airStale = false;
     }
-    return scene.air() ? target->lookThroughAir() : Status::ok();
+    return Status::ok();
+  }
+
+  GlTarget::Around around(const GlView& view) const {
+    GlTarget::Around around = view.unlit ? GlTarget::Around() : scene.around();
+    if (view.background) around.background = &environmentOnGpu;
+    return around;
   }
 
   void fold() {
     if (!pending) return;
-    const GlTarget::Background behind{environmentOnGpu, pending->unlit ? nullptr : scene.air()};
-    target->addToSum(*pending, background ? &behind : nullptr);
+    target->addToSum(*pending, around(*pending));
     pending.reset();
   }
 };
@@ -274,6 +279,7 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
   if (impl_->sun)
     seen.sun = light::pointsOf(*impl_->sun, samples)[std::size_t(impl_->samples % samples)];
   if (Status s = impl_->scene.mapSun(seen); !s) return s;
+  if (Status s = impl_->target->prepare(impl_->around(seen)); !s) return s;
   target.beginFrame();
   impl_->scene.draw(seen, impl_->environmentOnGpu);
   impl_->clipFromWorld = seen.clipFromWorld * assetFromWorld;

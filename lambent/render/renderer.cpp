@@ -84,6 +84,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
   }
   Result<GlTarget> target = GlTarget::make(width, height);
   if (!target) return target.error();
+  if (Status s = target->prepare(scene->around()); !s) return s.error();
   return Renderer(std::unique_ptr<Impl>(new Impl{environment, options, scene::bounds(asset.scene),
                                                  std::move(*context), std::move(*target),
                                                  std::move(*scene), std::move(inMirrors)}));
@@ -106,7 +107,7 @@ Result<image::Image> Renderer::picture(const scene::Camera& camera, const Progre
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto drawn = impl_->draw(camera, places[i], sun.empty() ? nullptr : &sun[i]);
     if (!drawn) return drawn.error();
-    impl_->target.addToSum(*drawn, nullptr);
+    impl_->target.addToSum(*drawn, impl_->scene.around());
     if (Status s = checkGl("drawing"); !s) return s.error();
     if (progress) {
       glFinish();

@@ -210,8 +210,10 @@ void finishAttributes(Mesh& mesh, const std::string& place, Diagnosis& diagnosis
                   "texture coordinates were not finite and are (0, 0) now", place);
   }
   if (badColors > 0) {
-    diagnosis.add(Severity::Warning, "colors-clamped", badColors,
-                  "vertex colours were outside 0 to 1 and were clamped", place);
+    diagnosis.lose(Severity::Warning, "colors-clamped", badColors,
+                   "vertex colours were outside 0 to 1 and were clamped: what they say beyond is "
+                   "lost. Write reflectances, which lie between 0 and 1",
+                   place);
   }
 }
 

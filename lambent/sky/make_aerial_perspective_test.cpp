@@ -99,7 +99,8 @@ TEST(AirMaker, SolvesAnAirOnceForEverySun) {
   EXPECT_TRUE(same(evening, tableOf(second)));
   EXPECT_FALSE(same(evening, anew));
   EXPECT_EQ(folder.files().size(), 1u);
-  EXPECT_LT(std::filesystem::file_size(folder.files()[0]), 16u << 20);
+  // All Suns of the fast path's density: what one air takes of the user's cache folder.
+  EXPECT_LT(std::filesystem::file_size(folder.files()[0]), 18u << 20);
 }
 
 }  // namespace

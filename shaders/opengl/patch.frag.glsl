@@ -1,10 +1,9 @@
 // Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L),
-// sloan2003biscale eq. 4, as shade::LitPatch. Alpha is coverage.
+// sloan2003biscale eq. 4, as shade::LitPatch. Alpha is as coverage.glsl says.
 //
 // Before this text stand: #define LAMBENT_FILTER 0 or 1, and what these want: incident.glsl,
 // corner_weights.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl, rtt_look_up.glsl,
-// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; LAMBENT_AIR 1, with what air_texels.glsl
-// says, or 0.
+// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, coverage.glsl.
 
 struct Vertex {
   vec4 positionU;
@@ -81,8 +80,5 @@ vec3 litRadiance() {
 
 void main() {
   vec3 sent = gl_FrontFacing ? litRadiance() : vec3(0.0);
-#if LAMBENT_AIR
-  sent = seenThroughAir(position - eye.xyz, sent);
-#endif
-  radiance = vec4(sent, 1.0);
+  radiance = vec4(sent, coveredAt(position, eye));
 }
