@@ -120,8 +120,9 @@ AirLight Scattering::along(const RayInAir& ray, double end) const {
   const AirPath path =
       airPath(m, impl_->split, ray.altitude, ray.cosine, end, shadowEdges(m.shell, ray));
   std::vector<MarchNode> nodes;
+  const std::vector<Impl::Place> places = impl_->prepareAlong(path, ray.cosine, nodes);
   impl_->prepareOnce(path, ray, Impl::Shadow::Sharp, nodes);
-  impl_->prepareAgain(path, ray, nodes);
+  impl_->prepareAgain(path, ray, places, nodes);
   const double sunAtEnd = path.hitsGround ? impl_->sunZenithAtEnd(path, ray) : 0;
   const MarchKernels kernel = marchKernels();
   const std::size_t count = m.wavelengths.size();

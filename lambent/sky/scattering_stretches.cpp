@@ -61,8 +61,9 @@ void Scattering::upTo(const RayInAir& ray, std::span<const double> ends, int nod
   AirPath path = airPath(m, split, ray.altitude, ray.cosine, ends.back(), breaks);
   if (path.hitsGround) goOnBelowGround(m, ends, nodes, path);
   std::vector<MarchNode> marched;
+  const std::vector<Impl::Place> places = impl_->prepareAlong(path, ray.cosine, marched);
   impl_->prepareOnce(path, ray, Impl::Shadow::Sharp, marched);
-  impl_->prepareAgain(path, ray, marched);
+  impl_->prepareAgain(path, ray, places, marched);
 
   const MarchKernels kernel = marchKernels();
   std::size_t node = 0;

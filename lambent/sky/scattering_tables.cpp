@@ -12,8 +12,6 @@
 namespace lambent::sky {
 namespace {
 
-constexpr double kPerDegree = kPi / 180;
-
 /// abramowitz1964handbook, 4.4.46: 2e-8 rad off at most. A quarter of std::acos's time.
 double quickAcos(double cosine) {
   const double x = std::abs(cosine);
@@ -28,16 +26,20 @@ double quickAcos(double cosine) {
   return cosine < 0 ? kPi - angle : angle;
 }
 
-/// A ray's direction and the Sun at a place along it.
-struct LocalFrame {
-  double cosine, sunCosine;  ///< of their zenith angles
-  LocalFrame(const media::Shell& shell, const AirPath& path, const AirPath::Node& node,
-             const RayInAir& ray, double sunCosine0) {
-    const double r0 = shell.radius + path.altitude, r = shell.radius + node.altitude;
-    cosine = std::clamp((r0 * ray.cosine + node.distance) / r, -1.0, 1.0);
-    sunCosine = std::clamp((r0 * sunCosine0 + node.distance * ray.towardsSun) / r, -1.0, 1.0);
-  }
-};
+/// Cosine of a zenith angle at a place along a path that has `cosine0` at its origin, and whose
+/// direction makes an angle of cosine `between` with what it is the zenith angle of.
+double cosineAlong(const media::Shell& shell, const AirPath& path, const AirPath::Node& node,
+                   double cosine0, double between) {
+  const double r0 = shell.radius + path.altitude, r = shell.radius + node.altitude;
+  return std::clamp((r0 * cosine0 + node.distance * between) / r, -1.0, 1.0);
+}
+
+/// Of an axis of directions, from 0 to half a turn, with its border in: node k is entry k + 1.
+int directionTaps(double angle, int count, float (&weight)[4]) {
+  const Taps four = cubicTaps(angle / kPi * (count - 1) + 1, count + 2);
+  for (int k = 0; k < 4; ++k) weight[k] = float(four.weight[k]);
+  return four.first;
+}
 
 }  // namespace
 
@@ -53,12 +55,6 @@ MarchKernels marchKernels() {
   }
 #endif
   return baseline::marchKernels();
-}
-
-double Grid::sunCoordinate(double zenith) const {
-  const double degrees = zenith / kPerDegree, past = degrees - 78;
-  const double more = (twilight - 0.2) / 2;
-  return density * (degrees / 5 + more * (past + std::sqrt(past * past + 64))) - first;
 }
 
 double Grid::sunZenith(int node) const {
@@ -99,18 +95,35 @@ void Block::transmit(const float (&lengths)[kParts], float (&out)[kLanes]) const
   marchKernels().exp(depths, out);
 }
 
-void Scattering::Impl::prepareOnce(const AirPath& path, const RayInAir& ray, Shadow shadow,
-                                   std::vector<MarchNode>& nodes) const {
-  const double sunCosine = std::cos(ray.sunZenith);
+std::vector<Scattering::Impl::Place> Scattering::Impl::prepareAlong(
+    const AirPath& path, double cosine, std::vector<MarchNode>& nodes) const {
+  std::vector<Place> places(path.nodes.size());
   nodes.resize(path.nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const AirPath::Node& node = path.nodes[n];
     MarchNode& out = nodes[n];
+    Place& place = places[n];
     out.weight = float(node.weight);
     std::copy_n(node.density, kParts, out.density);
     std::copy_n(node.length, kParts, out.length);
+    place.cosine = cosineAlong(medium.shell, path, node, cosine, 1);
+    place.sine = std::sqrt(1 - place.cosine * place.cosine);
+    place.rows = placeTaps(node.rise * (grid.altitudes - 1), grid.altitudes);
+    place.direction = grid.azimuthStride() *
+                      directionTaps(quickAcos(place.cosine), grid.zeniths, out.zenithWeight);
+    out.moment[1] = float(1 + place.cosine * place.cosine);
+  }
+  return places;
+}
+
+void Scattering::Impl::prepareOnce(const AirPath& path, const RayInAir& ray, Shadow shadow,
+                                   std::vector<MarchNode>& nodes) const {
+  const double sunCosine = std::cos(ray.sunZenith);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const AirPath::Node& node = path.nodes[n];
+    MarchNode& out = nodes[n];
     const double sunZenith =
-        std::acos(LocalFrame(medium.shell, path, node, ray, sunCosine).sunCosine);
+        std::acos(cosineAlong(medium.shell, path, node, sunCosine, ray.towardsSun));
     const double above = node.horizon - sunZenith;
     out.sunVisible =
         shadow == Shadow::Soft ? float(discAbove(above / kSunRadius)) : (above >= 0 ? 1.0f : 0.0f);
@@ -122,53 +135,34 @@ void Scattering::Impl::prepareOnce(const AirPath& path, const RayInAir& ray, Sha
 }
 
 void Scattering::Impl::prepareAgain(const AirPath& path, const RayInAir& ray,
+                                    std::span<const Place> places,
                                     std::vector<MarchNode>& nodes) const {
-  const double sunCosine = std::cos(ray.sunZenith);
-  const auto taps = [this](double at, int count) {
-    return resolution.cubic ? cubicTaps(at, count) : linearTaps(at, count);
-  };
-  // With the border in: node k of an axis is entry k + 1.
-  const auto directed = [](double at, int count, float(&weight)[4]) {
-    const Taps four = cubicTaps(at + 1, count + 2);
-    for (int k = 0; k < 4; ++k) weight[k] = float(four.weight[k]);
-    return four.first;
-  };
-  nodes.resize(path.nodes.size());
+  const double sunCosine0 = std::cos(ray.sunZenith);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const AirPath::Node& node = path.nodes[n];
+    const Place& place = places[n];
     MarchNode& out = nodes[n];
-    out.weight = float(node.weight);
-    std::copy_n(node.density, kParts, out.density);
-    std::copy_n(node.length, kParts, out.length);
-
-    const LocalFrame frame(medium.shell, path, node, ray, sunCosine);
-    const double sine2 = 1 - frame.cosine * frame.cosine;
-    const double sines = std::sqrt(sine2 * (1 - frame.sunCosine * frame.sunCosine));
+    const double sunCosine =
+        cosineAlong(medium.shell, path, path.nodes[n], sunCosine0, ray.towardsSun);
+    const double sines = place.sine * std::sqrt(1 - sunCosine * sunCosine);
     // Where either stands in the zenith azimuths mean nothing.
     const double cosAzimuth =
-        sines > 1e-9
-            ? std::clamp((ray.towardsSun - frame.cosine * frame.sunCosine) / sines, -1.0, 1.0)
-            : 1;
-    const Taps suns = taps(grid.sunCoordinate(quickAcos(frame.sunCosine)), grid.suns);
-    const Taps rows = taps(node.rise * (grid.altitudes - 1), grid.altitudes);
+        sines > 1e-9 ? std::clamp((ray.towardsSun - place.cosine * sunCosine) / sines, -1.0, 1.0)
+                     : 1;
+    const Taps suns = placeTaps(grid.sunCoordinate(quickAcos(sunCosine)), grid.suns);
     out.cellCount = 0;
     for (int i = 0; i < suns.count; ++i)
-      for (int j = 0; j < rows.count; ++j) {
-        const double w = suns.weight[i] * rows.weight[j];
+      for (int j = 0; j < place.rows.count; ++j) {
+        const double w = suns.weight[i] * place.rows.weight[j];
         if (w == 0) continue;
-        out.cell[out.cellCount] = grid.cell(suns.first + i, rows.first + j);
+        out.cell[out.cellCount] = grid.cell(suns.first + i, place.rows.first + j);
         out.cellWeight[out.cellCount++] = float(w);
       }
-    const int zenith = directed(quickAcos(frame.cosine) / kPi * (grid.zeniths - 1), grid.zeniths,
-                                out.zenithWeight);
-    const int azimuth = directed(quickAcos(cosAzimuth) / kPi * (grid.azimuths - 1), grid.azimuths,
-                                 out.azimuthWeight);
-    out.direction = zenith * grid.azimuthStride() + azimuth;
-    const double x2 = sine2 * cosAzimuth * cosAzimuth;
+    out.direction =
+        place.direction + directionTaps(quickAcos(cosAzimuth), grid.azimuths, out.azimuthWeight);
+    const double x = place.sine * cosAzimuth, x2 = x * x;
     out.moment[0] = float(1 + x2);
-    out.moment[1] = float(1 + frame.cosine * frame.cosine);
-    out.moment[2] = float(1 + (sine2 - x2));
-    out.moment[3] = float(2 * std::sqrt(sine2) * cosAzimuth * frame.cosine);
+    out.moment[2] = float(1 + (place.sine * place.sine - x2));
+    out.moment[3] = float(2 * x * place.cosine);
   }
 }
 

@@ -1,8 +1,11 @@
 // What Scattering is made of, shared by the files that solve it and look it up. Internal to the room.
 #pragma once
 
+#include <cmath>
+#include <span>
 #include <vector>
 
+#include "lambent/sky/interpolation.h"
 #include "lambent/sky/scattering.h"
 
 namespace lambent::sky {
@@ -23,7 +26,11 @@ struct Grid {
   double twilight = 1;  ///< how many of the Sun's to a degree in twilight, at density 1
 
   /// 5° between nodes by day, less in twilight, with a smooth change about 78°.
-  double sunCoordinate(double zenith) const;
+  double sunCoordinate(double zenith) const {
+    const double degrees = zenith * (180 / kPi), past = degrees - 78;
+    const double more = (twilight - 0.2) / 2;
+    return density * (degrees * 0.2 + more * (past + std::sqrt(past * past + 64))) - first;
+  }
   double sunZenith(int node) const;
   double altitude(int node) const;
 
@@ -80,11 +87,25 @@ struct Scattering::Impl {
     Sharp,  ///< of a point: paths are split at its edge
     Soft,   ///< of the Sun's disc, for paths that are not
   };
-  /// Nodes of a path for the kernel: what it needs to scatter light once (from the Sun), and again
-  /// (what the tables hold).
+  /// What is known of a node whatever the Sun and the azimuth from it.
+  struct Place {
+    double cosine, sine;  ///< of the path's zenith angle there
+    Taps rows;            ///< of altitudes
+    int direction;        ///< its zenith angle's part of MarchNode::direction
+  };
+  /// Nodes of a path for the kernel, `cosine` of whose zenith angle is at its origin: all that does not
+  /// depend on the Sun; then for one ray of it what it needs to scatter light once (from the Sun), and
+  /// again (what the tables hold).
+  std::vector<Place> prepareAlong(const AirPath& path, double cosine,
+                                  std::vector<MarchNode>& nodes) const;
   void prepareOnce(const AirPath& path, const RayInAir& ray, Shadow shadow,
                    std::vector<MarchNode>& nodes) const;
-  void prepareAgain(const AirPath& path, const RayInAir& ray, std::vector<MarchNode>& nodes) const;
+  void prepareAgain(const AirPath& path, const RayInAir& ray, std::span<const Place> places,
+                    std::vector<MarchNode>& nodes) const;
+  /// Between places of the Sun, and between altitudes.
+  Taps placeTaps(double coordinate, int count) const {
+    return resolution.cubic ? cubicTaps(coordinate, count) : linearTaps(coordinate, count);
+  }
 
   /// The Sun's zenith angle at the end of a path.
   double sunZenithAtEnd(const AirPath& path, const RayInAir& ray) const;

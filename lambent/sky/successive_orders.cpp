@@ -34,7 +34,12 @@ struct Arrivals {
     int path;                ///< of its zenith angle
   };
   std::vector<Direction> directions;
-  std::vector<AirPath> paths;
+  struct Path {
+    AirPath path;
+    std::vector<Scattering::Impl::Place> places;
+    std::vector<MarchNode> nodes;  ///< as Impl::prepareAlong leaves them
+  };
+  std::vector<Path> paths;
   // With the weights of the directions in:
   std::vector<float> moments;  ///< [xx, yy, zz, xy][arrival]
   std::vector<float> phase;    ///< [direction of the grid, without border][arrival]
@@ -51,7 +56,9 @@ Arrivals arrivalsAt(double altitude, const Scattering::Impl& s) {
       const double t = rule.nodes[i], zenith = horizon + (end - horizon) * t * t;
       const double weight = rule.weights[i] * 2 * t * std::abs(end - horizon) * std::sin(zenith);
       const int path = int(made.paths.size());
-      made.paths.push_back(airPath(s.medium, s.split, altitude, std::cos(zenith), kEndless));
+      Arrivals::Path& along = made.paths.emplace_back();
+      along.path = airPath(s.medium, s.split, altitude, std::cos(zenith), kEndless);
+      along.places = s.prepareAlong(along.path, along.path.cosine, along.nodes);
       for (int j = 0; j < s.resolution.around; ++j)
         made.directions.push_back({zenith, kPi * (j + 0.5) / s.resolution.around,
                                    weight * 2 * kPi / s.resolution.around, path});
@@ -154,17 +161,18 @@ class Step {
     // [block][arrival][lane]
     const std::size_t size = here.directions.size() * kLanes;
     std::vector<std::vector<float>> radiance(s_.blocks.size(), std::vector<float>(size));
-    std::vector<MarchNode> nodes;
+    std::vector<MarchNode> nodes;  // of the path of the last direction
     for (std::size_t i = 0; i < here.directions.size(); ++i) {
       const Arrivals::Direction& in = here.directions[i];
-      const AirPath& path = here.paths[std::size_t(in.path)];
+      const auto& [path, places, fresh] = here.paths[std::size_t(in.path)];
+      if (i == 0 || in.path != here.directions[i - 1].path) nodes = fresh;
       const double towardsSun = std::cos(in.zenith) * std::cos(sunZenith) +
                                 std::sin(in.zenith) * std::sin(sunZenith) * std::cos(in.azimuth);
       const RayInAir ray{altitude, path.cosine, sunZenith, towardsSun};
       if (once_)
         s_.prepareOnce(path, ray, Scattering::Impl::Shadow::Soft, nodes);
       else
-        s_.prepareAgain(path, ray, nodes);
+        s_.prepareAgain(path, ray, places, nodes);
       for (std::size_t b = 0; b < s_.blocks.size(); ++b)
         arrive(b, path, ray, nodes, &radiance[b][i * kLanes]);
     }
