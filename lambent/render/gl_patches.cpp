@@ -221,7 +221,7 @@ Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
   for (const char* name :
        {"incident.glsl", "corner_weights.glsl", "rtt_response.glsl", "view_square.glsl",
         "rtt_footprint.glsl", "rtt_look_up.glsl", "tangent_frame.glsl", "shading_normal.glsl",
-        "patch_place.glsl", "coverage.glsl", "patch.frag.glsl"})
+        "patch_place.glsl", "sample_alpha.glsl", "patch.frag.glsl"})
     fragment.emplace_back(shaderSource(name));
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",

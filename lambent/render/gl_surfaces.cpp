@@ -125,7 +125,7 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
   }
   if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
   for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
-                           "texel_receivers.glsl", "corner_weights.glsl", "coverage.glsl", "surface.frag.glsl"})
+                           "texel_receivers.glsl", "corner_weights.glsl", "sample_alpha.glsl", "surface.frag.glsl"})
     include(name);
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "surface.vert.glsl",

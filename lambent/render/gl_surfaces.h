@@ -57,7 +57,7 @@ class GlSurfaces {
   }
 
   bool hasMirrors() const { return hasMirrors_; }
-  /// Draws them into the bound framebuffer: radiance, and in alpha what coverage.glsl says. A vertex array must be bound;
+  /// Draws them into the bound framebuffer: radiance, and in alpha what sample_alpha.glsl says. A vertex array must be bound;
   /// its element buffer is changed. Mirrors show `environment`.
   /// With view.sun: lit by it, where `sunMap` (null: nowhere) does not have it hidden.
   void draw(const GlView& view, const GlEnvironment& environment, const GlBaseColors& colors,

@@ -19,7 +19,7 @@ class GlTarget {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Linear radiance, alpha as shaders/opengl/coverage.glsl says, and depth.
+  /// Linear radiance, alpha as shaders/opengl/sample_alpha.glsl says, and depth.
   GLuint framebuffer() const { return framebuffer_.name(); }
 
   /// Binds the frame to be drawn into: black and without coverage, at the far plane.

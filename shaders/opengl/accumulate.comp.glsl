@@ -6,7 +6,7 @@
 // environment_maps.glsl; LAMBENT_AIR 1, with what air_table.glsl says, or 0.
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f, binding = 0) readonly uniform image2D one;  // alpha: coverage.glsl
+layout(rgba32f, binding = 0) readonly uniform image2D one;  // alpha: sample_alpha.glsl
 layout(rgba32f, binding = 1) uniform image2D sum;           // radiance and coverage
 
 // The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up.

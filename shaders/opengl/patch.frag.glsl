@@ -1,9 +1,9 @@
 // Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L),
-// sloan2003biscale eq. 4, as shade::LitPatch. Alpha is as coverage.glsl says.
+// sloan2003biscale eq. 4, as shade::LitPatch. Alpha is as sample_alpha.glsl says.
 //
 // Before this text stand: #define LAMBENT_FILTER 0 or 1, and what these want: incident.glsl,
 // corner_weights.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl, rtt_look_up.glsl,
-// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, coverage.glsl.
+// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, sample_alpha.glsl.
 
 struct Vertex {
   vec4 positionU;

@@ -1,10 +1,10 @@
-// Exit radiance of a relit surface at one sub-sample. Alpha is as coverage.glsl says.
+// Exit radiance of a relit surface at one sub-sample. Alpha is as sample_alpha.glsl says.
 //
 // Before this text stand: #define LAMBENT_KIND: 0 transfer at the vertices, 1 at texels, 2 a mirror,
 // 3 black; LAMBENT_GROUPS, LAMBENT_INTERPOLATED and LAMBENT_EACH_GROUP as in surface.vert.glsl and,
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, base_color_map.glsl, shading_normal.glsl, texel_receivers.glsl,
-// corner_weights.glsl, coverage.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl,
+// corner_weights.glsl, sample_alpha.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl,
 // environment_maps.glsl; LAMBENT_AIR 1 for mirrors in air, with what air_texels.glsl says, or 0.
 
 struct Vertex {
