@@ -123,6 +123,7 @@ Status run(SynthesizeRequest arguments, Console& console) {
     return asset::readRtt(arguments.rtt, arguments.scene.reading.forAsset());
   });
   if (!rtt) return rtt.error();
+  arguments.scene.sides = scene_io::Sides::One;  // a patch has no other side
   auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
 

@@ -36,7 +36,9 @@ void turn(scene::Scene& scene, const Turn& rotated) {
 
 Result<LoadedPatch> loadMesh(const std::filesystem::path& path, const PatchFileOptions& options) {
   Result<scene_io::LoadedScene> loaded = scene_io::load(
-      path, {.allowOutside = options.allowOutside, .memoryLimit = options.memoryLimit});
+      path, {.allowOutside = options.allowOutside,
+             .memoryLimit = options.memoryLimit,
+             .sides = scene_io::Sides::One});  // nobody sees a patch from below
   if (!loaded) return loaded.error();
   Findings findings = std::move(loaded->findings);
   Patch patch;

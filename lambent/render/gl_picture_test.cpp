@@ -8,6 +8,9 @@
 #include "lambent/render/batches.h"
 #include "lambent/render/gl_picture_in_blocks.h"
 #include "lambent/render/test_agreement.h"
+#include "lambent/reference/relit_picture.h"
+#include "lambent/scene/shapes.h"
+#include "lambent/scene/sheets.h"
 #include "lambent/shade/test_assets.h"
 
 namespace lambent::render {
@@ -40,6 +43,22 @@ TEST(GlPicture, TexturedWithTheBaseColourOutside) {
   for (const Vec3& p : mesh.positions) mesh.colors.emplace_back(1.0f, 0.7f + 0.2f * p.y(), 0.9f);
   shade::test::addDiffuse(asset, mesh, {4, 3, Encoding::Float16, true});
   expectAgreement("textured", asset, kCamera, small(4));
+}
+
+TEST(GlPicture, EachSideOfASheetIsSeenFromWhereItFaces) {
+  asset::Asset asset;
+  scene::Mesh sheet = shade::test::floor(Vec3::Zero(), 1.6f);
+  sheet = scene::withBacks(scene::rotated(std::move(sheet), Vec3(1, 0.3f, 0), 1.1f));
+  shade::test::addDiffuse(asset, sheet, {});
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3(0.3f, 0.2f, 0.1f), 0.5f, 12), {});
+  for (const Vec3& eye : {Vec3(1.5f, 1.8f, 5.0f), Vec3(-1.5f, -1.8f, -5.0f), Vec3(1, -4, 2)}) {
+    const scene::Camera camera = cameraAt(eye, Vec3::Zero());
+    expectAgreement("sheet", asset, camera, small(4));
+    const auto picture = reference::relitPicture(asset, light::Environment::uniform(Rgb::Ones()).project(5), {}, camera, small(1));
+    ASSERT_TRUE(picture);
+    for (std::size_t i = 0; i < picture->pixels.size(); ++i)
+      if (picture->alpha[i] == 1.0f) EXPECT_GT(picture->pixels[i].minCoeff(), 0.7f) << eye;
+  }
 }
 
 TEST(GlPicture, TexelGrid) {

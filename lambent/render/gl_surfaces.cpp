@@ -9,6 +9,7 @@
 
 #include "lambent/render/harmonics_source.h"
 #include "lambent/render/shader_sources.h"
+#include "lambent/scene/sheets.h"
 #include "lambent/shade/rtt_pyramid.h"
 #include "lambent/shade/unshadowed.h"
 
@@ -204,6 +205,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
     if (Status s = addTexels(index, *grid, *response, perReceiver, showing, transfer, litRows); !s)
       return s;
 
+  const bool backs = scene::hasBacks(mesh);
   for (const TriangleBatch& batch :
        splitTriangles(mesh, largestBlock_ / perVertex, largestBlock_ / (4 * sizeof(float)))) {
     Geometry geometry;
@@ -211,6 +213,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
     geometry.corners = makeBuffer(batch.corners);
     geometry.normals = makeBuffer(gatherNormals(mesh, batch));
     geometry.cornerCount = int(batch.corners.size());
+    geometry.backs = backs;
     geometries_.push_back(std::move(geometry));
     if (Status s = checkGl("uploading a mesh"); !s) return s;
 
@@ -268,6 +271,12 @@ void GlSurfaces::setLobe(std::optional<float> exponent) {
     }
 }
 
+/// Two sides of a sheet have the same depth: what faces away would be drawn over what is seen.
+void GlSurfaces::cullBacks(bool cull) {
+  glCullFace(GL_BACK);
+  (cull ? glEnable : glDisable)(GL_CULL_FACE);
+}
+
 void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
                       const GlBaseColors& colors, const GlSunMap* sunMap,
                       const shade::Showing& showing, GLuint vertexArray) const {
@@ -320,8 +329,10 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6,
                      draw.lit ? lit_[*draw.lit].sunShare.product.name() : 0);
     glVertexArrayElementBuffer(vertexArray, geometry.corners.name());
+    cullBacks(geometry.backs);
     glDrawElements(GL_TRIANGLES, geometry.cornerCount, GL_UNSIGNED_INT, nullptr);
   }
+  cullBacks(false);
 }
 
 }  // namespace lambent::render

@@ -63,21 +63,27 @@ class GlSurfaces {
   void draw(const GlView& view, const GlEnvironment& environment, const GlBaseColors& colors,
             const GlSunMap* sunMap, const shade::Showing& showing, GLuint vertexArray) const;
   /// Calls drawPiece(mesh, vertices, corners, count) for every piece, as GlPatches::drawUnlit.
+  /// Where a mesh has backs, back faces are culled meanwhile.
   template <class DrawUnlit>
   void drawUnlit(DrawUnlit drawPiece) const {
     for (const Draw& draw : draws_) {
       if (draw.rows.begin > 0) continue;  // the first band of texels draws the whole of the piece
       const Geometry& geometry = geometries_[draw.geometry];
+      cullBacks(geometry.backs);
       drawPiece(draw.mesh, geometry.vertices.name(), geometry.corners.name(), geometry.cornerCount);
     }
+    cullBacks(false);
   }
 
  private:
+  static void cullBacks(bool cull);
+
   /// As in surface.frag.glsl.
   enum class SurfaceKind { Vertices = 0, Texels = 1, Mirror = 2, Black = 3 };
   struct Geometry {
     Buffer vertices, corners, normals;
     int cornerCount = 0;
+    bool backs = false;  ///< of triangles: only what faces the eye is to be drawn
   };
   struct Draw {
     std::uint32_t mesh = 0;

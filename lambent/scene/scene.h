@@ -32,7 +32,9 @@ struct Material {
   float lobeExponent = 16.0f;  ///< r of the lobe, ≥ 0
   Rgb emission = Rgb::Zero();  ///< radiance, W m⁻² sr⁻¹, ≥ 0; the base colour leaves it alone
   int baseColorTexture = -1;  ///< index into Scene::textures, or −1
-  bool doubleSided = false;   ///< as the file says; Lambent lights front faces only
+  /// As the file says. Surfaces are lit and seen from their front alone: what has two sides has a
+  /// back of triangles (scene/sheets.h), which loaders add where a surface that says so is open.
+  bool doubleSided = false;
 
   bool isMirror() const { return mirror.maxCoeff() > 0.0f; }
   bool isGlossy() const { return !isMirror() && glossy.maxCoeff() > 0.0f; }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "lambent/scene/sheets.h"
 #include "lambent/trace/embree_scene.h"
 
 namespace lambent::trace {
@@ -23,6 +24,28 @@ RTCRay makeRay(const Vec3& origin, const Vec3& direction, float tNear, float tFa
   ray.time = 0.0f;
   ray.mask = ~0u, ray.id = 0, ray.flags = 0;
   return ray;
+}
+
+/// The triangles of a mesh that are traced.
+std::span<const scene::Triangle> frontsOf(const scene::Mesh& mesh) {
+  const std::span<const scene::Triangle> all = mesh.triangles;
+  return scene::hasBacks(mesh) ? all.first(all.size() / 2) : all;
+}
+
+bool hasAnyBacks(const scene::Scene& scene) {
+  return std::any_of(scene.meshes.begin(), scene.meshes.end(), scene::hasBacks);
+}
+
+std::vector<RayScene::Impl::Sides> sidesOf(const scene::Scene& scene,
+                                           std::span<const std::uint32_t> offsets) {
+  std::vector<RayScene::Impl::Sides> sides;
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const auto all = std::uint32_t(scene.meshes[m].triangles.size());
+    const auto fronts = std::uint32_t(frontsOf(scene.meshes[m]).size());
+    for (std::uint32_t t = 0; t < fronts; ++t)
+      sides.push_back({offsets[m] + t, offsets[m] + t + (all - fronts)});
+  }
+  return sides;
 }
 
 }  // namespace
@@ -56,9 +79,11 @@ Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
   RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
+  if (hasAnyBacks(scene)) impl->sides = sidesOf(scene, impl->triangleOffsets);
+  const std::size_t traced = impl->sides.empty() ? triangleCount : impl->sides.size();
   auto* indices = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), triangleCount));
+                              3 * sizeof(std::uint32_t), traced));
   if (!positions || !indices) {
     rtcReleaseGeometry(geometry);
     return embreeError(rtcGetDeviceError(impl->device), "allocating the triangles");
@@ -69,7 +94,7 @@ Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
     for (const Vec3& p : mesh.positions) {
       *positions++ = p.x(), *positions++ = p.y(), *positions++ = p.z();
     }
-    for (const scene::Triangle& t : mesh.triangles)
+    for (const scene::Triangle& t : frontsOf(mesh))
       for (std::uint32_t corner : t) *indices++ = first + corner;
   }
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
@@ -94,10 +119,13 @@ std::optional<Hit> RayScene::closest(const Vec3& origin, const Vec3& direction, 
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const GlobalTriangle place = locate(query.hit.primID);
   const Vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-  return Hit{query.ray.tfar, place.mesh,  place.triangle,
-             query.hit.u,    query.hit.v, normal.dot(direction) > 0.0f};
+  std::uint32_t triangle = query.hit.primID;
+  float u = query.hit.u, v = query.hit.v;
+  bool backFace = normal.dot(direction) > 0.0f;
+  impl_->nameSide(triangle, u, v, backFace);
+  const GlobalTriangle place = locate(triangle);
+  return Hit{query.ray.tfar, place.mesh, place.triangle, u, v, backFace};
 }
 
 bool RayScene::occluded(const Vec3& origin, const Vec3& direction, float tNear, float tFar) const {

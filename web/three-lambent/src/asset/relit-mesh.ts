@@ -4,6 +4,7 @@ import {
   BufferAttribute,
   BufferGeometry,
   DataTexture,
+  FrontSide,
   NearestFilter,
   RGIntegerFormat,
   UnsignedShortType,
@@ -37,6 +38,7 @@ import { clampedCosineMoments, phongLobeMoments } from "../sh/zonal.js";
 import { kindOf, macroOf, type TransferChoice } from "./choices.js";
 import type { Reflectance } from "./reflectance.js";
 import { kindWithoutBounces } from "./sharp-sun.js";
+import { hasBacks } from "./two-sides.js";
 
 /** What somebody wants to see. */
 export interface Choices {
@@ -93,6 +95,7 @@ export class RelitMesh {
   private expanded: BufferGeometry | null = null;
   private readonly geometry: BufferGeometry;
   private readonly map: Texture | null;
+  private readonly backs: boolean;
   /** What the loader gave the mesh. */
   readonly original: Material;
   /** Of the asset's Sun. */
@@ -108,6 +111,7 @@ export class RelitMesh {
   ) {
     this.geometry = mesh.geometry;
     this.original = mesh.material as Material;
+    this.backs = hasBacks(mesh.geometry);
     this.map = (this.original as { map?: Texture | null }).map ?? null;
     mesh.onBeforeRender = (renderer, _scene, camera, _geometry, material) => {
       if (material === this.material) this.material.look(renderer, camera, mesh);
@@ -185,6 +189,7 @@ export class RelitMesh {
     this.material?.dispose();
     this.material = material;
     material.name = this.original.name;
+    if (this.backs) material.side = FrontSide;
     this.mesh.material = material;
   }
 

@@ -143,6 +143,22 @@ export const texelScene = sceneGlb(
   [checker],
 );
 
+/** A leaning sheet with two sides, its front down, on a floor. */
+export const sheetScene = (() => {
+  const sheet = floor({ name: "sheet", half: 0.8, material: 0, cells: 6 });
+  const [c, s] = [Math.cos(2.5), Math.sin(2.5)];
+  for (const list of [sheet.positions, sheet.normals])
+    for (let i = 0; i < list.length; i += 3) {
+      const [y, z] = [list[i + 1], list[i + 2]];
+      list[i + 1] = c * y - s * z + (list === sheet.positions ? 0.7 : 0);
+      list[i + 2] = s * y + c * z;
+    }
+  return sceneGlb(
+    [sheet, floor({ half: 1.5, material: 1 })],
+    [{ ...matt([0.9, 0.3, 0.2]), doubleSided: true }, matt([0.7, 0.7, 0.7])],
+  );
+})();
+
 /** What a patch is spread over. */
 export const ballScene = sceneGlb(
   [
