@@ -13,6 +13,7 @@
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
+#include "lambent/scene/sheets.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/transfer/encode.h"
 #include "lambent/transfer/names.h"
@@ -79,6 +80,28 @@ Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::s
   return grids;
 }
 
+/// The backs of meshes that have some lie beside their fronts: grids twice as wide.
+Status layOutSides(std::vector<transport::TexelGrid>& grids, scene::Scene& scene) {
+  for (transport::TexelGrid& grid : grids) {
+    scene::Mesh& mesh = scene.meshes[grid.mesh];
+    if (!scene::hasBacks(mesh)) continue;
+    const auto refused = [&](const std::string& why) {
+      return badUsage(
+          fmt::format("--texels: mesh {} '{}' has two sides, whose texels lie beside "
+                      "each other, and {}: bake it at its vertices, or its front alone "
+                      "(--sides one)",
+                      grid.mesh, mesh.name, why));
+    };
+    if (scene.materials[std::size_t(mesh.material)].baseColorTexture >= 0)
+      return refused("a texture, which has the same place on both");
+    if (2 * grid.width > kMostTexels)
+      return refused(fmt::format("{} texels each way are too many for both", grid.width));
+    scene::layOutBacks(mesh);
+    grid.width *= 2;
+  }
+  return Status::ok();
+}
+
 Status runBake(BakeRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
@@ -92,6 +115,7 @@ Status runBake(BakeRequest arguments, Console& console) {
   const macro::BakeOptions options = arguments.transfer.chosen(console);
   auto grids = resolveTexels(arguments.texels, *scene);
   if (!grids) return grids.error();
+  if (Status laid = layOutSides(*grids, *scene); !laid) return laid;
 
   // Without bounces there is no room for a slipped ray's light to gather in.
   const trace::Edges edges = options.kind == transfer::Kind::Interreflected
@@ -160,6 +184,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
   app->footer(std::string(kBakeExamples));
   macro::BakeOptions& options = arguments->transfer.options;
   arguments->scene.addTo(*app);
+  arguments->scene.addSidesTo(*app);
   app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
       ->option_text("ASSET.glb")
       ->required();

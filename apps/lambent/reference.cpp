@@ -255,6 +255,7 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
   app->group("Verbs");
   app->footer(sources::sourceHelp() + std::string(kReferenceExamples));
   arguments->scene.addTo(*app);
+  arguments->scene.addSidesTo(*app);
   arguments->state.addTo(*app, arguments->light.addTo(*app, false));
   app->add_option(
          "-o,--output", arguments->output,

@@ -7,7 +7,6 @@
 #include "apps/lambent/arguments.h"
 #include "lambent/asset/asset.h"
 #include "lambent/scene/shapes.h"
-#include "lambent/scene_io/load.h"
 
 namespace lambent::tool {
 
@@ -16,16 +15,17 @@ namespace {
 /// One material's reflectance moves to the kind that was asked for.
 void overrideMaterial(const SceneArguments& arguments, scene::Material& material) {
   const Rgb own = material.isMirror()    ? material.mirror
-                  : material.isDiffuse() ? material.diffuse
-                                         : material.glossy;
+                  : material.isGlossy() && !material.isDiffuse()
+                      ? material.glossy
+                      : Rgb(material.diffuse + material.transmitted);
   const Rgb reflectance = arguments.albedo.value_or(own);
   std::optional<MaterialKind> kind = arguments.material;
   if (!kind && arguments.albedo)
     kind = material.isMirror()    ? MaterialKind::Mirror
-           : material.isDiffuse() ? MaterialKind::Diffuse
-                                  : MaterialKind::Glossy;
+           : material.isGlossy() && !material.isDiffuse() ? MaterialKind::Glossy
+                                                          : MaterialKind::Diffuse;
   if (kind) {
-    material.diffuse = material.glossy = material.mirror = Rgb::Zero();
+    material.diffuse = material.glossy = material.mirror = material.transmitted = Rgb::Zero();
     (kind == MaterialKind::Mirror   ? material.mirror
      : kind == MaterialKind::Glossy ? material.glossy
                                     : material.diffuse) = reflectance;
@@ -78,6 +78,17 @@ void SceneArguments::addTo(CLI::App& app) {
   reading.addTo(app);
 }
 
+void SceneArguments::addSidesTo(CLI::App& app) {
+  using scene_io::Sides;
+  addChoice(app, "--sides", sides,
+            {{"file", Sides::AsFileSays}, {"one", Sides::One}, {"two", Sides::Two}},
+            "What is lit and seen from behind as well: what the file calls double-sided, unless it "
+            "bounds a body; nothing (one); everything (two), as leaves and cloth of OBJ and PLY "
+            "need it, or a room seen from within. Two sides are twice the vertices")
+      ->option_text("file|one|two")
+      ->group("Reading");
+}
+
 Result<scene::Scene> SceneArguments::load(Console& console, NamedFiles& files) const {
   scene::Scene scene;
   bool baked = false;
@@ -94,6 +105,7 @@ Result<scene::Scene> SceneArguments::load(Console& console, NamedFiles& files) c
   } else {
     scene_io::LoadOptions options = reading.forScene();
     options.layout = layout;
+    options.sides = sides;
     if (smooth) options.crease = float(*smooth * kPi / 180.0);
     auto loaded = console.stage("load", [&] { return scene_io::load(path, options); });
     if (!loaded) return loaded.error();

@@ -11,6 +11,7 @@
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
+#include "lambent/scene_io/load.h"
 
 namespace lambent::tool {
 
@@ -23,10 +24,13 @@ struct SceneArguments {
   std::optional<double> lobeExponent;
   bool ground = false;           ///< a grey floor under the scene
   std::optional<double> smooth;  ///< degrees, of normals that the file does not give
-  bool layout = false;           ///< texture coordinates are for texels (see LoadOptions)
-  ReadingArguments reading;      ///< for all files of the command
+  scene_io::Sides sides = scene_io::Sides::AsFileSays;
+  bool layout = false;       ///< texture coordinates are for texels (see LoadOptions)
+  ReadingArguments reading;  ///< for all files of the command
 
   void addTo(CLI::App& app);
+  /// --sides, for verbs that can do with two.
+  void addSidesTo(CLI::App& app);
   /// Reads the scene (or the scene inside a baked asset) and reports what was odd in it.
   /// `files` gets to know what the scene names, and is checked again.
   Result<scene::Scene> load(Console& console, NamedFiles& files) const;

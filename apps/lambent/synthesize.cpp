@@ -111,6 +111,16 @@ Json asJson(const bi_scale::SpreadReport& r) {
           {"matrix_error", r.matrixError}};
 }
 
+/// How many materials were there in parts alone.
+std::size_t makeWhole(scene::Scene& scene) {
+  std::size_t count = 0;
+  for (scene::Material& material : scene.materials) {
+    count += material.alphaMode != scene::AlphaMode::Opaque;
+    material.alphaMode = scene::AlphaMode::Opaque;
+  }
+  return count;
+}
+
 Status run(SynthesizeRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
@@ -123,8 +133,17 @@ Status run(SynthesizeRequest arguments, Console& console) {
     return asset::readRtt(arguments.rtt, arguments.scene.reading.forAsset());
   });
   if (!rtt) return rtt.error();
+  arguments.scene.sides = scene_io::Sides::One;  // a patch has no other side
   auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
+  if (const std::size_t gaps = makeWhole(*scene); gaps > 0) {
+    const Finding lost{Severity::Warning, "alpha-ignored",
+                       fmt::format("{} materials are (partly) transparent and are taken as opaque: "
+                                   "what carries meso-structure has no holes",
+                                   gaps),
+                       gaps, true};
+    if (Status whole = console.accept({lost}); !whole) return whole;
+  }
 
   bi_scale::SpreadOptions& options = arguments.options;
   auto meshes = chosenMeshes(arguments, *scene);

@@ -9,6 +9,7 @@
 
 #include "lambent/render/harmonics_source.h"
 #include "lambent/render/shader_sources.h"
+#include "lambent/scene/sheets.h"
 #include "lambent/shade/rtt_pyramid.h"
 #include "lambent/shade/unshadowed.h"
 
@@ -18,7 +19,7 @@ namespace {
 struct GpuVertex {
   float position[3], u;
   float normal[3], v;
-  float color[3], unused;
+  float color[3], alpha;
 };
 
 std::vector<GpuVertex> gatherVertices(const scene::Mesh& mesh, const TriangleBatch& batch) {
@@ -34,7 +35,7 @@ std::vector<GpuVertex> gatherVertices(const scene::Mesh& mesh, const TriangleBat
     }
     to.u = uv.x();
     to.v = uv.y();
-    to.unused = 0.0f;
+    to.alpha = mesh.alphas.empty() ? 1.0f : mesh.alphas[from];
   }
   return vertices;
 }
@@ -97,8 +98,9 @@ int GlSurfaces::lobeBandsOf(std::uint32_t mesh) const {
   return parts && parts->glossy ? parts->glossy->matrices.outBands : 0;
 }
 
-Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
-  if (programs_.contains({kind, lobeBands})) return Status::ok();
+Status GlSurfaces::addProgram(const Shape& shape) {
+  if (programs_.contains(shape)) return Status::ok();
+  const auto [kind, lobeBands, gaps] = shape;
   const int groups = lobeBands > 0 ? shade::rttStride(lobeBands) / 4 : 0;
   // Position, normal, colour, texture coordinates and exit radiance are interpolated as well.
   GLint mostVaryings = 0;
@@ -108,8 +110,8 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
   std::string defines = fmt::format(
       "#define LAMBENT_KIND {}\n#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
       "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_MAP 1\n#define LAMBENT_AIR {:d}\n"
-      "#define LAMBENT_EACH_GROUP(DO)",
-      int(kind), groups, interpolated, kind == SurfaceKind::Mirror && air_ != nullptr);
+      "#define LAMBENT_ALPHA {:d}\n#define LAMBENT_EACH_GROUP(DO)",
+      int(kind), groups, interpolated, kind == SurfaceKind::Mirror && air_ != nullptr, gaps);
   for (int i = 0; i < groups; ++i) defines += fmt::format(" DO({})", i);
   Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {defines}};
   const auto include = [&](std::string_view name) {
@@ -124,8 +126,10 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
     if (air_) fragment.parts.push_back(airSource(false));
   }
   if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
-  for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
-                           "texel_receivers.glsl", "corner_weights.glsl", "sample_alpha.glsl", "surface.frag.glsl"})
+  include("base_color.glsl");
+  if (gaps) include("coverage.glsl");
+  for (const char* name : {"base_color_map.glsl", "shading_normal.glsl", "texel_receivers.glsl",
+                           "corner_weights.glsl", "sample_alpha.glsl", "surface.frag.glsl"})
     include(name);
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "surface.vert.glsl",
@@ -133,25 +137,26 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
                                    std::move(fragment)};
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();
-  programs_.emplace(std::pair(kind, lobeBands), std::move(*program));
+  programs_.emplace(shape, std::move(*program));
   return Status::ok();
 }
 
 Status GlSurfaces::setAir(std::shared_ptr<const GlAir> air) {
   const bool same = bool(air_) == bool(air);
   air_.swap(air);
-  auto mirror = programs_.extract({SurfaceKind::Mirror, 0});
-  if (mirror.empty()) return Status::ok();
-  if (same) {
-    programs_.insert(std::move(mirror));
-    return Status::ok();
-  }
-  Status made = addProgram(SurfaceKind::Mirror, 0);
-  if (!made) {
-    programs_.insert(std::move(mirror));
-    air_.swap(air);
-  }
-  return made;
+  if (same) return Status::ok();
+  // Mirrors alone look through it where they are drawn.
+  std::map<Shape, Program> before;
+  for (auto& [shape, program] : programs_)
+    if (shape.kind == SurfaceKind::Mirror) before.emplace(shape, std::move(program));
+  for (const auto& [shape, program] : before) programs_.erase(shape);
+  for (const auto& [shape, program] : before)
+    if (Status s = addProgram(shape); !s) {
+      for (auto& [old, kept] : before) programs_.insert_or_assign(old, std::move(kept));
+      air_.swap(air);
+      return s;
+    }
+  return Status::ok();
 }
 
 Status GlSurfaces::addTexels(std::uint32_t index, const transfer::AtTexels& grid,
@@ -196,7 +201,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
                            : vertices ? SurfaceKind::Vertices
                            : grid     ? SurfaceKind::Texels
                                       : SurfaceKind::Black;
-  if (Status s = addProgram(kind, lobeBands); !s) return s;
+  if (Status s = addProgram(shapeOf(index, kind)); !s) return s;
 
   std::shared_ptr<const Response> response;
   if (surface)
@@ -207,6 +212,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
     if (Status s = addTexels(index, *grid, *response, perReceiver, showing, transfer, litRows); !s)
       return s;
 
+  const bool backs = scene::hasBacks(mesh);
   for (const TriangleBatch& batch :
        splitTriangles(mesh, largestBlock_ / perVertex, largestBlock_ / (4 * sizeof(float)))) {
     Geometry geometry;
@@ -214,6 +220,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
     geometry.corners = makeBuffer(batch.corners);
     geometry.normals = makeBuffer(gatherNormals(mesh, batch));
     geometry.cornerCount = int(batch.corners.size());
+    geometry.backs = backs;
     geometries_.push_back(std::move(geometry));
     if (Status s = checkGl("uploading a mesh"); !s) return s;
 
@@ -271,6 +278,12 @@ void GlSurfaces::setLobe(std::optional<float> exponent) {
     }
 }
 
+/// Two sides of a sheet have the same depth: what faces away would be drawn over what is seen.
+void GlSurfaces::cullBacks(bool cull) {
+  glCullFace(GL_BACK);
+  (cull ? glEnable : glDisable)(GL_CULL_FACE);
+}
+
 void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
                       const GlBaseColors& colors, const GlSunMap* sunMap,
                       const shade::Showing& showing, GLuint vertexArray) const {
@@ -281,7 +294,7 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     const Response* parts = partsOf(draw.mesh);
     const bool diffuse = parts && parts->diffuse;
     const Geometry& geometry = geometries_[draw.geometry];
-    const Program& program = programs_.at({draw.kind, lobeBandsOf(draw.mesh)});
+    const Program& program = programs_.at(shapeOf(draw.mesh, draw.kind));
     program.use();
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
@@ -311,6 +324,7 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
       if (hidden) sunMap->bind(program);
     }
     colors.bind(program, draw.mesh);
+    colors.bindCoverage(program, draw.mesh, view.sample);
     if (draw.kind == SurfaceKind::Mirror) {
       environment.bind(program, view.environmentFromWorld);
       if (air_) air_->bindTable(program);
@@ -325,8 +339,10 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6,
                      draw.lit ? lit_[*draw.lit].sunShare.product.name() : 0);
     glVertexArrayElementBuffer(vertexArray, geometry.corners.name());
+    cullBacks(geometry.backs);
     glDrawElements(GL_TRIANGLES, geometry.cornerCount, GL_UNSIGNED_INT, nullptr);
   }
+  cullBacks(false);
 }
 
 }  // namespace lambent::render

@@ -21,6 +21,7 @@
 #include "lambent/scene_io/gltf_read.h"
 #include "lambent/scene_io/gltf_types.h"
 #include "lambent/scene_io/mesh_bytes.h"
+#include "lambent/scene_io/two_sides.h"
 #include "lambent/scene_io/vertex_colors.h"
 
 namespace lambent::scene_io {
@@ -59,6 +60,7 @@ class Loader {
   TextureUse uvsOf(const GltfPrimitive& source, int material, const std::string& place);
   Result<const GltfSkin*> skinOf(const json& node);
   Status addMesh(Mesh mesh, LoadedGltf::Origin origin, const std::string& place);
+  Status addBacks();
   void noteLosses();
   void placeCamera(const json& node, const Mat4d& world);
 
@@ -160,10 +162,15 @@ Result<Mesh> Loader::readPrimitive(const json& node, const json& meshJson, const
   if (!mesh) return mesh;
   mesh->material = material;
   if (mesh->positions.empty()) return mesh;
+  const auto isWhole = [](float alpha) { return alpha >= 1.0f; };
+  if (result_.loaded.scene.materials[std::size_t(material)].alphaMode == scene::AlphaMode::Opaque ||
+      std::all_of(mesh->alphas.begin(), mesh->alphas.end(), isWhole))
+    mesh->alphas.clear();
   // Bytes that nothing says are normalized, and floats of a program that counts to 255.
   if (const float white = whiteOf(mesh->colors); white > 1.0f) {
     noteWhite(white, diagnosis_);
     for (Rgb& color : mesh->colors) color = linearColor(color, white);
+    for (float& alpha : mesh->alphas) alpha /= white;
   }
   if (Status status =
           morph(file_, primitive, morphWeights(node, meshJson), place, *mesh, diagnosis_);
@@ -262,6 +269,17 @@ Status Loader::addMesh(Mesh mesh, LoadedGltf::Origin origin, const std::string& 
   return Status::ok();
 }
 
+/// A baked asset has the backs that it was baked with.
+Status Loader::addBacks() {
+  if (options_.keepAllVertices) return Status::ok();
+  const Result<std::vector<bool>> given =
+      giveBacks(result_.loaded.scene, options_.sides, name_, file_.budget(), diagnosis_);
+  if (!given) return given.error();
+  for (std::size_t m = 0; m < given->size(); ++m)
+    if ((*given)[m]) result_.origins[m].verticesKept = false;
+  return Status::ok();
+}
+
 /// What a bake leaves out of the file, apart from what was met on the way.
 void Loader::noteLosses() {
   noteExtensions(document_, diagnosis_);
@@ -317,6 +335,7 @@ Result<LoadedGltf> Loader::load() {
     return bad("holds no triangles; Lambent needs a surface to bake" +
                (types == wrong.end() ? std::string() : ". " + types->message));
   }
+  if (Status status = addBacks(); !status) return status.error();
   noteLosses();
   result_.loaded.findings = diagnosis_.findings();
   file_.linkedFiles().noteGltf(document_);

@@ -20,6 +20,13 @@ struct LoadedScene {
   std::vector<std::filesystem::path> linkedFiles = {};
 };
 
+/// What has a back of its own, that is lit and seen as its front is.
+enum class Sides {
+  AsFileSays,  ///< open surfaces that glTF calls double-sided
+  One,         ///< nothing: seen from behind, all is black
+  Two,         ///< everything, bodies that are closed too
+};
+
 struct LoadOptions {
   /// Whether the files that the scene names (buffers, pictures, material libraries) may lie
   /// anywhere, not only in its folder and below. For scenes that you trust.
@@ -34,6 +41,7 @@ struct LoadOptions {
   /// Texture coordinates are for texels of transfer: where a glTF mesh has a second set, which by
   /// custom is laid out without overlap for light maps, and no texture, it is taken.
   bool layout = false;
+  Sides sides = Sides::AsFileSays;
 };
 
 /// By extension: .glb .gltf .obj .ply. A file that cannot be used is ErrorKind::BadInput whose

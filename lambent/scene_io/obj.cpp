@@ -12,6 +12,7 @@
 #include "lambent/scene_io/obj_text.h"
 #include "lambent/scene_io/polygon.h"
 #include "lambent/scene_io/text_file.h"
+#include "lambent/scene_io/two_sides.h"
 #include "lambent/scene_io/vertex_colors.h"
 
 namespace lambent::scene_io {
@@ -239,6 +240,7 @@ Result<LoadedScene> ObjReader::read() {
   for (const std::string& names : text_.libraries) {
     if (Status status = readLibraries(names); !status) return status.error();
   }
+  materials_.dropParts();
   scene_.origin = farOrigin(usedBox());
   noteFarOrigin(scene_.origin, diagnosis_);
   white_ = whiteOf(text_.colors);
@@ -253,6 +255,8 @@ Result<LoadedScene> ObjReader::read() {
                                  ? "; it may not be an OBJ file"
                                  : ", only vertices; export it with its faces"));
   }
+  const auto given = giveBacks(scene_, files_.options().sides, name_, files_.budget(), diagnosis_);
+  if (!given) return given.error();
   return LoadedScene{std::move(scene_), diagnosis_.findings(), files_.noted()};
 }
 

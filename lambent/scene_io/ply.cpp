@@ -14,6 +14,7 @@
 #include "lambent/scene_io/mtl.h"
 #include "lambent/scene_io/ply_data.h"
 #include "lambent/scene_io/text_file.h"
+#include "lambent/scene_io/two_sides.h"
 #include "lambent/scene_io/vertex_colors.h"
 
 namespace lambent::scene_io {
@@ -254,6 +255,9 @@ Result<LoadedScene> PlyReader::read(PlyBody body) {
   const Status added = addMeshes();
   if (!added) return added.error();
   if (loaded_.scene.meshes.empty()) return bad("all its triangles are without area");
+  const auto given =
+      giveBacks(loaded_.scene, files_.options().sides, name_, files_.budget(), diagnosis_);
+  if (!given) return given.error();
   loaded_.findings = diagnosis_.findings();
   loaded_.linkedFiles = files_.noted();
   return std::move(loaded_);

@@ -4,6 +4,7 @@
 
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
+#include "lambent/scene/sheets.h"
 #include "lambent/trace/cast.h"
 #include "lambent/work/flush_denormals.h"
 
@@ -60,6 +61,51 @@ TEST(RayScene, BarycentricsMeetTheSurfacePoint) {
   const scene::SurfacePoint point =
       scene::surfaceAt(scene, hit->mesh, hit->triangle, hit->u, hit->v);
   EXPECT_LT((point.position - Vec3(0.3f, 0, -0.7f)).norm(), 1e-6f);
+}
+
+TEST(RayScene, OfTwoSidesItNamesTheOneThatIsMet) {
+  scene::Scene scene = floorAndCeiling();
+  scene.meshes.insert(scene.meshes.begin() + 1, scene::withBacks(square(0.5f, 1, true)));
+  const auto rays = RayScene::build(scene);
+  ASSERT_TRUE(rays);
+  EXPECT_EQ(
+      std::vector<std::uint32_t>(rays->triangleOffsets().begin(), rays->triangleOffsets().end()),
+      (std::vector<std::uint32_t>{0, 2, 6, 8}));
+  for (const float from : {0.1f, 0.9f}) {
+    const Vec3 origin(0.3f, from, -0.7f);
+    const Vec3 direction(0, from < 0.5f ? 1.0f : -1.0f, 0);
+    const auto hit = rays->closest(origin, direction);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->mesh, 1u);
+    EXPECT_FALSE(hit->backFace);
+    EXPECT_EQ(hit->triangle<2, from> 0.5f);
+    const scene::SurfacePoint point =
+        scene::surfaceAt(scene, hit->mesh, hit->triangle, hit->u, hit->v);
+    EXPECT_LT((point.position - Vec3(0.3f, 0.5f, -0.7f)).norm(), 1e-6f);
+    EXPECT_LT(point.normal.dot(direction), -0.99f);
+    // Past it the ceiling or the floor is met, and not the other side.
+    const auto behind = rays->closest(point.position + 1e-4f * direction, direction);
+    ASSERT_TRUE(behind);
+    EXPECT_EQ(behind->mesh, from > 0.5f ? 0u : 2u);
+    EXPECT_TRUE(rays->occluded(origin, direction, 0.0f, 0.45f));
+  }
+  const work::FlushDenormals flush;
+  const DirectionSet set(2000, math::randomRotation(1));
+  CastResult cast;
+  castClosest(*rays, set, Vec3(0.1f, 0.2f, 0), Vec3::UnitY(), cast);
+  std::size_t met = 0;
+  for (const DirectionHit& hit : cast.hits) {
+    const auto place = rays->locate(hit.globalTriangle);
+    EXPECT_FALSE(hit.backFace);
+    if (place.mesh != 1) continue;
+    ++met;
+    EXPECT_GE(place.triangle, 2u);
+    const scene::SurfacePoint point =
+        scene::surfaceAt(scene, place.mesh, place.triangle, hit.u, hit.v);
+    const Vec3 expected = Vec3(0.1f, 0.2f, 0) + hit.distance * set[hit.direction];
+    EXPECT_LT((point.position - expected).norm(), 1e-5f);
+  }
+  EXPECT_GT(met, 500u);
 }
 
 TEST(DirectionSet, IsEquallyWeightedWithTightBundles) {

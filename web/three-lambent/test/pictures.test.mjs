@@ -12,8 +12,10 @@ import {
   ballScene,
   environmentExr,
   glossyScene,
+  leafScene,
   mattScene,
   mirrorScene,
+  sheetScene,
   texelScene,
 } from "./support/scenes.mjs";
 import { lambent, noTool } from "./support/tool.mjs";
@@ -40,6 +42,8 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       matt: mattScene,
       glossy: glossyScene,
       mirror: mirrorScene,
+      sheet: sheetScene,
+      leaf: leafScene,
       texel: texelScene,
       ball: ballScene,
     };
@@ -69,6 +73,8 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     bake("matt", "matt-unshadowed", "--transfer", "unshadowed");
     bake("glossy", "glossy-unshadowed", "--transfer", "unshadowed");
     bake("mirror", "mirror");
+    bake("sheet", "sheet");
+    bake("leaf", "leaf");
     bake("texel", "texel", "--texels", "sheet=48x40");
     const patch = [
       "--positions",
@@ -220,6 +226,8 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
   it("… with another lobe", () =>
     agree("glossy-lobe", "glossy.glb", ["--lobe", 40], { asset_: { lobeExponent: 40 } }));
   it("mirrors", () => agree("mirror", "mirror.glb"));
+  it("two sides", () => agree("sheet", "sheet.glb"));
+  it("holes", () => agree("leaf", "leaf.glb"));
   it("texels, matt and glossy", () => agree("texel", "texel.glb"));
   it("meso-structure with an id map", () => agree("patch", "patch.glb"));
   it("… with light fetched per pixel", () =>

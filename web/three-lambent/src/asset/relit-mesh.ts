@@ -4,6 +4,7 @@ import {
   BufferAttribute,
   BufferGeometry,
   DataTexture,
+  FrontSide,
   NearestFilter,
   RGIntegerFormat,
   UnsignedShortType,
@@ -26,6 +27,7 @@ import { kGroupsAFetch, kNumbersOf, type RttTexture } from "../gpu/rtt-texture.j
 import { TransferPass, TurnPass, type LightPass } from "../gpu/transfer-pass.js";
 import type { AirMode } from "../materials/air-source.js";
 import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
+import { coverageUniforms, hasGaps, type Coverage } from "../materials/coverage.js";
 import { incidentGroups } from "../materials/group-macros.js";
 import {
   makePatchMaterial,
@@ -37,6 +39,7 @@ import { clampedCosineMoments, phongLobeMoments } from "../sh/zonal.js";
 import { kindOf, macroOf, type TransferChoice } from "./choices.js";
 import type { Reflectance } from "./reflectance.js";
 import { kindWithoutBounces } from "./sharp-sun.js";
+import { hasBacks } from "./two-sides.js";
 
 /** What somebody wants to see. */
 export interface Choices {
@@ -47,6 +50,7 @@ export interface Choices {
   lobeExponent: number | null;
   unlit: boolean;
   samples: number;
+  sample: number;
   /** There is a Sun whose shadows are sharp. */
   sun: boolean;
   air: AirMode;
@@ -93,6 +97,7 @@ export class RelitMesh {
   private expanded: BufferGeometry | null = null;
   private readonly geometry: BufferGeometry;
   private readonly map: Texture | null;
+  private readonly backs: boolean;
   /** What the loader gave the mesh. */
   readonly original: Material;
   /** Of the asset's Sun. */
@@ -105,9 +110,12 @@ export class RelitMesh {
     readonly transfer: PrimitiveTransfer | null,
     private readonly reflectance: Reflectance,
     private readonly shared: Shared,
+    readonly coverage: Coverage,
+    private readonly number: number,
   ) {
     this.geometry = mesh.geometry;
     this.original = mesh.material as Material;
+    this.backs = hasBacks(mesh.geometry);
     this.map = (this.original as { map?: Texture | null }).map ?? null;
     mesh.onBeforeRender = (renderer, _scene, camera, _geometry, material) => {
       if (material === this.material) this.material.look(renderer, camera, mesh);
@@ -118,6 +126,10 @@ export class RelitMesh {
   /** Its triangles, as the loader made them. */
   get plain(): BufferGeometry {
     return this.geometry;
+  }
+
+  get texture(): Texture | null {
+    return this.uv ? this.map : null;
   }
 
   get isMirror(): boolean {
@@ -155,6 +167,7 @@ export class RelitMesh {
     }
     const material = this.material!;
     material.samples = choices.samples;
+    material.sample = choices.sample;
     if (material.uniforms.viewDependent)
       material.uniforms.viewDependent.value = choices.viewDependent;
     return fresh;
@@ -162,11 +175,13 @@ export class RelitMesh {
 
   private build(renderer: WebGLRenderer, choices: Choices): void {
     const { transfer, reflectance, map, colored, uv, shared } = this;
-    const plain = { map, colored, uv };
+    const gaps = hasGaps(this.coverage);
+    const plain = { map, colored, uv, gaps };
     const { air } = choices;
-    const throughAir = air === "none" ? {} : shared.air;
+    const covered = gaps ? coverageUniforms(this.coverage, this.number) : {};
+    const throughAir = { ...covered, ...(air === "none" ? {} : shared.air) };
     if (choices.unlit) {
-      this.show(makeSurfaceMaterial({ kind: "unlit", ...plain }, {}));
+      this.show(makeSurfaceMaterial({ kind: "unlit", ...plain }, covered));
       this.material!.uniforms.reflectance.value.set(...reflectance.base);
     } else if (this.isMirror) {
       const uniforms = { ...shared.environment.uniforms, ...throughAir };
@@ -185,6 +200,7 @@ export class RelitMesh {
     this.material?.dispose();
     this.material = material;
     material.name = this.original.name;
+    if (this.backs) material.side = FrontSide;
     this.mesh.material = material;
   }
 
@@ -202,7 +218,10 @@ export class RelitMesh {
     const unshadowed = kind === "unshadowed" && description.transfer !== "unshadowed";
     const from =
       kind === "shadowed" && description.transfer !== kind ? transfer.shadowed : transfer;
-    const uniforms: Record<string, IUniform> = {};
+    const gaps = hasGaps(this.coverage);
+    const uniforms: Record<string, IUniform> = gaps
+      ? coverageUniforms(this.coverage, this.number)
+      : {};
     const direct = choices.sun ? kindWithoutBounces(description, transfer, choices.transfer) : null;
     const { receivers, grid } = transfer;
     let albedoOutside = false;
@@ -253,7 +272,7 @@ export class RelitMesh {
       sun: direct && (direct === "unshadowed" ? ("open" as const) : ("hidden" as const)),
       sunShare: apart !== null && apart,
       air: choices.air,
-      ...{ albedoOutside, lobeBands, fetch, map, colored, uv },
+      ...{ albedoOutside, lobeBands, fetch, map, colored, uv, gaps },
     };
     this.show(makeSurfaceMaterial(shape, uniforms));
   }
