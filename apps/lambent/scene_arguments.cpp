@@ -14,14 +14,14 @@ namespace {
 
 /// One material's reflectance moves to the kind that was asked for.
 void overrideMaterial(const SceneArguments& arguments, scene::Material& material) {
-  const Rgb own = material.isMirror()    ? material.mirror
+  const Rgb own = material.isMirror() ? material.mirror
                   : material.isGlossy() && !material.isDiffuse()
                       ? material.glossy
                       : Rgb(material.diffuse + material.transmitted);
   const Rgb reflectance = arguments.albedo.value_or(own);
   std::optional<MaterialKind> kind = arguments.material;
   if (!kind && arguments.albedo)
-    kind = material.isMirror()    ? MaterialKind::Mirror
+    kind = material.isMirror()                            ? MaterialKind::Mirror
            : material.isGlossy() && !material.isDiffuse() ? MaterialKind::Glossy
                                                           : MaterialKind::Diffuse;
   if (kind) {

@@ -115,9 +115,13 @@ Json asJson(const bi_scale::SpreadReport& r) {
 std::size_t makeWhole(scene::Scene& scene) {
   std::size_t count = 0;
   for (scene::Material& material : scene.materials) {
-    count += material.alphaMode != scene::AlphaMode::Opaque;
+    count +=
+        material.alphaMode != scene::AlphaMode::Opaque || material.transmitted.maxCoeff() > 0.0f;
     material.alphaMode = scene::AlphaMode::Opaque;
+    material.diffuse += material.transmitted;
+    material.transmitted = Rgb::Zero();
   }
+  for (scene::Mesh& mesh : scene.meshes) mesh.alphas.clear();
   return count;
 }
 

@@ -47,8 +47,11 @@ Result<LoadedPatch> loadMesh(const std::filesystem::path& path, const PatchFileO
   patch.scene.cameras.clear();
   std::uint64_t gaps = 0;
   for (scene::Material& material : patch.scene.materials) {
-    gaps += material.alphaMode != scene::AlphaMode::Opaque;
+    gaps +=
+        material.alphaMode != scene::AlphaMode::Opaque || material.transmitted.maxCoeff() > 0.0f;
     material.alphaMode = scene::AlphaMode::Opaque;
+    material.diffuse += material.transmitted;
+    material.transmitted = Rgb::Zero();
   }
   if (gaps > 0)
     findings.push_back({Severity::Warning, "alpha-ignored",

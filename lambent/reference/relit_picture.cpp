@@ -24,7 +24,7 @@ namespace lambent::reference {
 namespace {
 
 using transfer::Numbers;
-constexpr int kMostVeils = 256;  ///< seen through, in a row
+constexpr int kMostSeenThrough = 256;  ///< seen through, in a row
 
 using Surface = transfer::Surface<Numbers>;
 using BiScale = transfer::BiScale<Numbers>;
@@ -98,7 +98,7 @@ struct LitScene {
     SeenThrough out;
     Rgb through = Rgb::Ones();
     float tNear = 0.0f;
-    for (int passed = 0; passed < kMostVeils; ++passed) {
+    for (int passed = 0; passed < kMostSeenThrough; ++passed) {
       const std::optional<trace::Hit> hit = rays.closest(ray.origin, ray.direction, tNear);
       if (!hit) {
         if (shafts && options.background)
