@@ -1,10 +1,26 @@
 """All rows: name of a folder → what its files must come to. Numbers are closed forms or, where it
 says so, a path tracer's."""
 
-from checks import Radiance
+from checks import Custom, Radiance
 
 GREY = (0.5, 0.5, 0.5)
 SPHERE = (0.8, 0.8, 0.8)
+
+
+def traced(tool, scene, *options):
+    """What the path tracer says of every vertex: x, y, z, nx, ny, nz, r, g, b and variances."""
+    tool.run_tool("reference", scene, *options, "-o", "traced.csv", "--quiet")
+    lines = tool.path("traced.csv").read_text().splitlines()[1:]
+    return [[float(cell) for cell in line.split(",")] for line in lines]
+
+
+def emission_is_written(tool):
+    """Of a sphere in the dark: what it emits itself, in the table as in the picture."""
+    rows = traced(tool, "es2.glb", "--light", "uniform:0", "--spp", "16")
+    tool.assertEqual(len(rows), 642)
+    for row in rows:
+        for got, right in zip(row[6:9], (1.0, 0.5, 0.25)):
+            tool.assertAlmostEqual(got, right, delta=1e-6)
 
 
 def texels(*sizes):
@@ -19,4 +35,5 @@ ROWS = {
           for o in texels("64x32", "32x16", "16x8")),
         Radiance("quad.glb", GREY, options=("--texels", "1x1")),
     ],
+    "06-emissive-csv": [Custom("a surface's own emission", emission_is_written)],
 }
