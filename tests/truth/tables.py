@@ -28,6 +28,11 @@ def texels(*sizes):
 
 
 ROWS = {
+    "04-mixed-winding": [
+        # A convex body in uniform light: its albedo.
+        Radiance("sphere20.glb", SPHERE, within=0.01, finds=("winding-reversed",),
+                 silent=("normals-flipped",)),
+    ],
     "05-texel-on-diagonal": [
         # Convex bodies, all of whose texel centres lie on edges of triangles.
         *(Radiance("grid8.glb", GREY, options=o) for o in texels("8x8", "4x4")),
