@@ -129,6 +129,13 @@ Status checkFrames(const scene::Scene& scene, const Placement& placement) {
 
 }  // namespace
 
+std::uint32_t PlacedReceivers::addWitness(std::uint32_t mesh, const scene::SurfacePoint& point,
+                                          const Vec3& origin) {
+  add(*this, point, origin);
+  witnesses.push_back(mesh);
+  return static_cast<std::uint32_t>(size() - 1);
+}
+
 Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
                                        float offset) {
   const std::span<const TexelGrid> texels = placement.texels;
@@ -148,6 +155,7 @@ Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placemen
     PlacedReceivers::PerMesh& place = receivers.meshes[m];
     place.first = static_cast<std::uint32_t>(receivers.size());
     if (material.isMirror()) continue;
+    place.textured = material.baseColorTexture >= 0 && !mesh.uvs.empty();
     place.isGlossy = material.isGlossy();
     place.isDiffuse = material.isDiffuse() || !place.isGlossy;  // black is a diffuse material too
     for (const LocalFrames& frames : placement.local)

@@ -1,6 +1,8 @@
 """All rows: name of a folder → what its files must come to. Numbers are closed forms or, where it
 says so, a path tracer's."""
 
+import math
+
 from checks import Custom, Radiance
 
 GREY = (0.5, 0.5, 0.5)
@@ -23,11 +25,34 @@ def emission_is_written(tool):
             tool.assertAlmostEqual(got, right, delta=1e-6)
 
 
+def apart(rows, truth, where):
+    """Relative RMSE of the colours of rows `where` holds of."""
+    wrong = sum((a - b) ** 2 for p, q in zip(rows, truth) if where(p) for a, b in zip(p[6:9], q[6:9]))
+    whole = sum(b ** 2 for p, q in zip(rows, truth) if where(p) for b in q[6:9])
+    return math.sqrt(wrong / whole)
+
+
+def bounced_colour(tool):
+    """The wall over a floor of one quad with a red carpet and a dark rim, against paths."""
+    asset, _ = tool.baked("carpet.glb", ("--bounces", "2"))
+    rows = tool.shaded(asset, "uniform")
+    truth = traced(tool, "carpet.glb", "--light", "uniform", "--bounces", "2", "--spp", "256")
+
+    def is_low_wall(row):
+        return row[5] > 0.9 and 0.0 < row[1] < 0.5
+    tool.assertLess(apart(rows, truth, is_low_wall), 0.02)
+    near = [row for row in rows if is_low_wall(row) and row[1] < 0.15 and abs(row[0]) < 0.3]
+    tool.assertTrue(near)
+    for row in near:
+        tool.assertGreater(row[6], 1.2 * row[7])
+
+
 def texels(*sizes):
     return [("--texels", size) for size in sizes]
 
 
 ROWS = {
+    "02-textured-bounce": [Custom("the colour of the carpet", bounced_colour)],
     "04-mixed-winding": [
         # A convex body in uniform light: its albedo.
         Radiance("sphere20.glb", SPHERE, within=0.01, finds=("winding-reversed",),
