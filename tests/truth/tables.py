@@ -47,11 +47,26 @@ def bounced_colour(tool):
         tool.assertGreater(row[6], 1.2 * row[7])
 
 
+def no_teeth(tool):
+    """A room with boxes that have no bottoms, on texels: the picture against paths."""
+    asset, findings = tool.baked("box_uv.glb", ("--texels", "48x48", "--bounces", "3"))
+    tool.assertIn("receivers-inside", findings)
+    picture = ("--light", "uniform", "--size", "96x96")
+    tool.run_tool("render", asset, *picture, "-o", "ours.exr", "--backend", "cpu", "--quiet")
+    tool.run_tool("reference", "box_uv.glb", *picture, "--bounces", "3", "--spp", "128", "-o",
+                  "truth.exr", "--quiet")
+    # 2% and more with what the receivers inside see for themselves.
+    far = tool.run_json("compare", "truth.exr", "ours.exr")
+    tool.assertLess(far["beyond_noise"], 0.012)
+    tool.assertLess(abs(far["bias"]), 0.004)
+
+
 def texels(*sizes):
     return [("--texels", size) for size in sizes]
 
 
 ROWS = {
+    "01-buried-receivers": [Custom("no teeth along contacts", no_teeth)],
     "02-textured-bounce": [Custom("the colour of the carpet", bounced_colour)],
     "04-mixed-winding": [
         # A convex body in uniform light: its albedo.

@@ -1,0 +1,33 @@
+#include "lambent/transport/inside_probe.h"
+
+#include <algorithm>
+
+#include "lambent/math/random.h"
+
+namespace lambent::transport {
+
+namespace {
+
+constexpr double kMostBacks = 1.0 / 3.0;
+
+}  // namespace
+
+InsideProbe::InsideProbe(const trace::RayScene& rays)
+    : rays_(rays), few_(32, math::randomRotation(1)), many_(512, math::randomRotation(2)) {}
+
+double InsideProbe::shareOfBacks(const trace::DirectionSet& directions, const Vec3& origin,
+                                 const Vec3& normal, trace::CastResult& scratch) const {
+  trace::castClosest(rays_, directions, origin, normal, scratch);
+  const auto backs = std::count_if(scratch.hits.begin(), scratch.hits.end(),
+                                   [](const trace::DirectionHit& hit) { return hit.backFace; });
+  return static_cast<double>(backs) /
+         static_cast<double>(std::max<std::size_t>(scratch.raysCast, 1));
+}
+
+bool InsideProbe::seesBacks(const Vec3& origin, const Vec3& normal,
+                            trace::CastResult& scratch) const {
+  return shareOfBacks(few_, origin, normal, scratch) > 0.1 &&
+         shareOfBacks(many_, origin, normal, scratch) > kMostBacks;
+}
+
+}  // namespace lambent::transport
