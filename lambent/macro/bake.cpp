@@ -18,6 +18,7 @@
 #include "lambent/macro/passes.h"
 #include "lambent/math/random.h"
 #include "lambent/transport/mend_buried.h"
+#include "lambent/transport/texel_charts.h"
 
 namespace lambent::macro {
 
@@ -225,6 +226,8 @@ Result<WithFindings<transfer::SimulatedField>> bake(const scene::Scene& scene,
   Findings findings;
   if (options.kind != transfer::Kind::Unshadowed)
     tellOfHits(simulated->counts, mended ? &*mended : nullptr, findings);
+  for (Finding& finding : transport::chartFindings(scene, receivers))
+    findings.push_back(std::move(finding));
   tellOfEmitters(scene, findings);
   return WithFindings<transfer::SimulatedField>{fieldOf(simulation, *simulated),
                                                 std::move(findings)};

@@ -7,6 +7,7 @@
 
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/texel_map.h"
+#include "lambent/transport/texel_charts.h"
 
 namespace lambent::transport {
 
@@ -78,6 +79,20 @@ Status placeTexels(const scene::Scene& scene, const TexelGrid& asked, float offs
               scene::surfaceAt(scene, asked.mesh, t, static_cast<float>(u), static_cast<float>(v));
           add(receivers, point, point.position + offset * point.normal);
         });
+  // A chart between the centres of texels gets those around it that nobody else has.
+  for (const TinyChart& tiny : tinyCharts(mesh, asked.width, asked.height)) {
+    std::uint32_t own = kNobody;
+    for (const std::uint32_t texel : tiny.texels) {
+      if (grid.receiverOfTexel[texel] != kNobody) continue;
+      if (own == kNobody) {
+        own = static_cast<std::uint32_t>(receivers.size());
+        const scene::SurfacePoint point =
+            scene::surfaceAt(scene, asked.mesh, tiny.triangle, 1.0f / 3.0f, 1.0f / 3.0f);
+        add(receivers, point, point.position + offset * point.normal);
+      }
+      grid.receiverOfTexel[texel] = own;
+    }
+  }
   dilate(grid);
   return Status::ok();
 }
