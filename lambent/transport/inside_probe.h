@@ -14,10 +14,12 @@ class InsideProbe {
   /// `rays` must outlive it.
   explicit InsideProbe(const trace::RayScene& rays);
 
-  /// By some 16 rays, and by some 256 where those meet a back. work::FlushDenormals must be held.
+  /// By four rays; by some 12 where one of those meets a back, and by some 256 where several do.
+  /// work::FlushDenormals must be held.
   bool seesBacks(const Vec3& origin, const Vec3& normal, trace::CastResult& scratch) const;
 
  private:
+  bool meetsBack(const Vec3& origin, const Vec3& normal) const;
   double shareOfBacks(const trace::DirectionSet& directions, const Vec3& origin, const Vec3& normal,
                       trace::CastResult& scratch) const;
 

@@ -19,7 +19,7 @@ using scene::kNobody;
 /// Look-ups are tried out this often across a texel.
 constexpr int kLookupsAcrossTexel = 2;
 /// Less of another chart's light than this is not worth a word.
-constexpr double kMixed = 0.05, kMixedShare = 0.002;
+constexpr double kMixed = 0.05, kMixedShare = 0.01;
 
 using Corner = std::array<std::uint32_t, 5>;
 struct CornerHash {
