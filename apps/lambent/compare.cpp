@@ -46,7 +46,8 @@ constexpr std::string_view kCompareExamples = R"(A is the truth, B what is judge
   relative_mse    mean of squared differences, each over its own A squared (+ 0.01)
   noise           what of it the variance in A and B accounts for ('lambent reference' stores it)
   beyond_noise    what is left of relative_rmse: the error proper
-  psnr            dB below the brightest value of A, or below 1 for PNG
+  psnr            dB below the brightest value of A; of PNG pictures: of their 8-bit codes, below
+                  255, as other programs have it
   difference      mean difference of the developed pictures' 8-bit codes, in steps of 1/255; the
   difference_lit  same over the pixels that are not black in both; and the largest of one channel
   flip            0 to 1, what a person sees who flips between the developed pictures

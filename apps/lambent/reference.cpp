@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -76,13 +77,20 @@ bool asksForReceivers(const std::filesystem::path& output) {
   return extension == ".csv" || extension == ".ply";
 }
 
-/// Exit radiance at every vertex that a bake would record, in the sequence of 'lambent shade'.
+/// Exit radiance at every vertex that a bake would record, in the sequence of 'lambent shade', and
+/// with it what the surface emits itself, as the picture shows it.
 Status traceReceivers(const ReferenceRequest& arguments, const scene::Scene& scene,
                       const trace::RayScene& rays, const light::Environment& environment,
                       Console& console) {
   // The bake's own receivers: their rays start where the bake's do.
   const auto receivers = transport::placeReceivers(scene, {}, rays.offset());
   if (!receivers) return receivers.error();
+  std::vector<Rgb> emissions(receivers->size(), Rgb::Zero());
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const auto& mesh = receivers->meshes[m];
+    std::fill_n(emissions.begin() + mesh.first, mesh.count,
+                scene.materials[scene.meshes[m].material].emission);
+  }
   std::vector<reference::Probe> probes(receivers->size());
   for (std::size_t r = 0; r < probes.size(); ++r) {
     scene::SurfacePoint& point = probes[r].point;
@@ -91,6 +99,7 @@ Status traceReceivers(const ReferenceRequest& arguments, const scene::Scene& sce
     point.diffuse = receivers->diffuse[r], point.glossy = receivers->glossy[r];
     point.mirror = Rgb::Zero();
     point.lobeExponent = receivers->exponents[r];
+    point.emission = emissions[r];
     probes[r].toViewer =
         arguments.eye ? Vec3((*arguments.eye - point.position).normalized()) : point.normal;
   }
@@ -260,7 +269,7 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
   app->add_option(
          "-o,--output", arguments->output,
          "The picture: .exr for linear radiance with a layer of variance, or .png; or .csv or .ply "
-         "for the radiance of every vertex, with its variance")
+         "for the radiance of every vertex (what it emits included), with its variance")
       ->option_text("OUT.exr|.png|.csv|.ply")
       ->required();
   addNumber(*app, "--spp", arguments->options.samples, {1, 1 << 20},

@@ -19,7 +19,8 @@ struct Comparison {
   double rmse = 0;          ///< √ mean (t − r)²
   double relativeRmse = 0;  ///< √ (Σ (t − r)² / Σ r²); infinite where only the reference is black
   double relativeMse = 0;  ///< mean (t − r)² / (r² + 0.01) (rousselle2011adaptive)
-  double psnr = 0;         ///< 10 log₁₀ (peak² / mean (t − r)²), dB; infinite if equal
+  double psnr = 0;         ///< 10 log₁₀ (peak² / mean (t − r)²), dB; infinite if equal; of
+                           ///< 8-bit codes for display-referred pictures (tone::compare)
   double psnrPeak = 1;     ///< the peak that it presumes
   double largest = 0;      ///< largest |t − r|
   double flip = 0;         ///< mean of the FLIP map, 0 … 1; not finite pixels count as black

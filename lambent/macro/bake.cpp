@@ -10,12 +10,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "lambent/macro/collect.h"
 #include "lambent/macro/passes.h"
 #include "lambent/math/random.h"
+#include "lambent/transport/mend_buried.h"
+#include "lambent/transport/texel_charts.h"
 
 namespace lambent::macro {
 
@@ -73,19 +76,40 @@ Status addTo(std::vector<float>& to, const std::vector<float>& from, const work:
                     });
 }
 
-Result<Simulated> simulate(const Simulation& s, const Progress& progress) {
+/// What a pass left at all receivers but those that are set by others: sets those, E and what they
+/// send on.
+void setOthers(const Simulation& s, const transport::MendedReceivers* mended,
+               const RowsToWrite& rows) {
+  if (mended == nullptr) return;
+  mended->extrapolation.fill({rows.incident.data(), s.rowStride});
+  if (s.matrixCount > 0)
+    mended->extrapolation.fill({rows.matrices.data(), s.matrixStride()}, s.matrixIndex);
+  if (rows.exit.empty()) return;
+  for (std::uint32_t r = 0; r < mended->buried.size(); ++r) {
+    if (!mended->buried[r] || !s.isDiffuse(r)) continue;
+    for (int c = 0; c < s.channels; ++c)
+      for (std::size_t j = c * s.inCount; j < (c + 1) * s.inCount; ++j)
+        rows.exit[r * s.rowStride + j] =
+            static_cast<float>(s.sentDiffuse[r][c] / kPi * rows.incident[r * s.rowStride + j]);
+  }
+}
+
+Result<Simulated> simulate(const Simulation& s, const transport::MendedReceivers* mended,
+                           const Progress& progress) {
   const work::Runner runner(progress, s.options.threads), quiet({}, s.options.threads);
   const work::ChunkRange all = s.chunks().range();
   const auto perReceiver = [&](double energy) {
-    return energy / std::max<double>(1.0, static_cast<double>(s.receivers.size()));
+    return energy / std::max<double>(1.0, static_cast<double>(s.order.size()));
   };
   Simulated out;
   out.sums.rows.resize(s.receivers.size() * s.rowStride);
   out.sums.matrices.resize(s.matrixCount * s.matrixStride());
   PassRows last;
   if (s.isBouncing()) last.exit.resize(out.sums.rows.size());
-  const auto direct = directPass(s, all, runner, {out.sums.rows, last.exit, out.sums.matrices});
+  const RowsToWrite first{out.sums.rows, last.exit, out.sums.matrices};
+  const auto direct = directPass(s, all, runner, first);
   if (!direct) return direct.error();
+  setOthers(s, mended, first);
   double energy = 0.0;
   for (const DirectChunk& chunk : direct->chunks)
     energy += chunk.energy, out.counts += chunk.counts;
@@ -97,9 +121,10 @@ Result<Simulated> simulate(const Simulation& s, const Progress& progress) {
   PassRows next{std::vector<float>(last.exit.size()), std::vector<float>(last.matrices.size())};
   std::vector<float> incident(out.sums.rows.size());
   for (int number = 1; number <= s.options.bounces; ++number) {
-    const auto energies = bouncePass(s, all, {number, last, direct->kept}, runner,
-                                     {incident, next.exit, next.matrices});
+    const RowsToWrite rows{incident, next.exit, next.matrices};
+    const auto energies = bouncePass(s, all, {number, last, direct->kept}, runner, rows);
     if (!energies) return energies.error();
+    setOthers(s, mended, rows);
     energy = 0.0;
     for (const double e : *energies) energy += e;
     out.passEnergy.push_back(perReceiver(energy));
@@ -126,7 +151,27 @@ transfer::SimulatedField fieldOf(const Simulation& s, const Simulated& simulated
   return field;
 }
 
-void tellOfHits(const HitCounts& counts, Findings& findings) {
+void tellOfInside(const HitCounts& counts, const transport::MendedReceivers* mended,
+                  Findings& findings) {
+  const std::uint64_t buried = mended ? mended->buriedCount : 0;
+  if (buried + counts.inside == 0) return;
+  std::string message;
+  if (buried > 0)
+    message += std::to_string(buried) +
+               " receivers lie inside a body that cuts through their mesh. What they hold was "
+               "extrapolated from " +
+               std::to_string(mended->receivers.witnesses.size()) +
+               " places traced beside it, so that no shadow bleeds out from there";
+  if (counts.inside > 0)
+    message += std::string(buried > 0 ? ". " : "") + std::to_string(counts.inside) +
+               " receivers see mostly back faces: they lie inside a closed mesh or behind a "
+               "single-sided one. They get no interreflection";
+  findings.push_back({counts.inside > 0 ? Severity::Warning : Severity::Note, "receivers-inside",
+                      std::move(message), buried + counts.inside});
+}
+
+void tellOfHits(const HitCounts& counts, const transport::MendedReceivers* mended,
+                Findings& findings) {
   const auto percent = [](std::uint64_t part, std::uint64_t whole) {
     return std::to_string(std::lround(1000.0 * static_cast<double>(part) /
                                       static_cast<double>(std::max<std::uint64_t>(whole, 1))) /
@@ -140,12 +185,7 @@ void tellOfHits(const HitCounts& counts, Findings& findings) {
              "% of the rays that met a surface met it from behind. Back faces block light and give "
              "none: if parts look too dark, the mesh may be open or turned inside out",
          counts.backFaces});
-  if (counts.inside > 0)
-    findings.push_back({Severity::Warning, "receivers-inside",
-                        std::to_string(counts.inside) +
-                            " receivers see mostly back faces: they lie inside a closed mesh or "
-                            "behind a single-sided one. They get no interreflection",
-                        counts.inside});
+  tellOfInside(counts, mended, findings);
 }
 
 void tellOfEmitters(const scene::Scene& scene, Findings& findings) {
@@ -170,12 +210,24 @@ Result<WithFindings<transfer::SimulatedField>> bake(const scene::Scene& scene,
   assert(receivers.meshes.size() == scene.meshes.size());
   if (Status sane = check(options, receivers); !sane) return sane.error();
   const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
-  const Simulation simulation(scene, rays, receivers, directions, options,
-                              channelsFor(scene, receivers, options.kind));
-  const Result<Simulated> simulated = simulate(simulation, progress);
+  std::optional<transport::MendedReceivers> mended;
+  if (options.kind != transfer::Kind::Unshadowed) {
+    auto found =
+        transport::mendBuried(scene, rays, receivers, work::Runner(progress, options.threads));
+    if (!found) return found.error();
+    mended = std::move(*found);
+  }
+  const Simulation simulation(
+      scene, rays, mended ? mended->receivers : receivers, directions, options,
+      channelsFor(scene, receivers, options.kind),
+      mended ? std::span<const std::uint8_t>(mended->buried) : std::span<const std::uint8_t>());
+  const Result<Simulated> simulated = simulate(simulation, mended ? &*mended : nullptr, progress);
   if (!simulated) return simulated.error();
   Findings findings;
-  if (options.kind != transfer::Kind::Unshadowed) tellOfHits(simulated->counts, findings);
+  if (options.kind != transfer::Kind::Unshadowed)
+    tellOfHits(simulated->counts, mended ? &*mended : nullptr, findings);
+  for (Finding& finding : transport::chartFindings(scene, receivers))
+    findings.push_back(std::move(finding));
   tellOfEmitters(scene, findings);
   return WithFindings<transfer::SimulatedField>{fieldOf(simulation, *simulated),
                                                 std::move(findings)};

@@ -11,12 +11,14 @@
 // p: read so, the rule looks where the mirrored ray goes. The rays are not cast again: hits are
 // kept in four to six bytes each, and a bounce is a sparse product. A hit takes the light of one
 // corner of the triangle, drawn by its weight (see drawReceiver), instead of blending three: a
-// third of the traffic for an error far below that of the directions.
+// third of the traffic for an error far below that of the directions. Of a textured surface it takes
+// the irradiance there, and the base colour of the place itself, which the hit keeps beside.
 #include <algorithm>
 
 #include "lambent/macro/simulation.h"
 #include "lambent/math/directions.h"
 #include "lambent/sh/basis.h"
+#include "lambent/transport/packed_colour.h"
 
 namespace lambent::macro {
 
@@ -41,7 +43,7 @@ void addLobe(const Simulation& simulation, std::uint32_t q, const Vec3& arrival,
            simulation.rowStride},
           scratch.ids, scratch.outFloat, scratch.y.data());
   for (int c = 0; c < simulation.channels; ++c) {
-    const double w = double(weight[c]) * receivers.glossy[q][c];
+    const double w = double(weight[c]) * simulation.sentGlossy[q][c];
     for (std::size_t j = 0; j < simulation.inCount; ++j)
       exit[c * simulation.inCount + j] += w * scratch.y[c * simulation.inCount + j];
   }
@@ -72,6 +74,42 @@ void addExit(const Simulation& simulation, std::uint32_t q, const Vec3& arrival,
   }
 }
 
+/// Adds the diffuse exits of all straight hits: weights[h] and, of textured meshes, the base colour
+/// where the ray struck. Rows of receivers that are not diffuse are zero: they need no exception.
+void addDiffuseExits(const Simulation& simulation, const ReceiverHits& hits,
+                     const PassRows& previous, Gathered& gathered, Scratch& scratch) {
+  const transport::Rows rows{previous.exit.data(), simulation.rowStride};
+  if (hits.colour.empty()) {
+    addRows(rows, hits.receiver, scratch.weights, gathered.incident.data());
+    return;
+  }
+  scratch.ids.clear(), scratch.tintedIds.clear(), scratch.tintedWeights.clear();
+  std::size_t plain = 0, tinted = 0;
+  for (std::size_t h = 0; h < hits.receiver.size(); ++h) {
+    const float w = scratch.weights[h];
+    if (simulation.isTextured(hits.receiver[h])) {
+      const Rgb colour = w * transport::unpackColour(hits.colour[tinted++]);
+      scratch.tintedIds.push_back(hits.receiver[h]);
+      scratch.tintedWeights.insert(scratch.tintedWeights.end(), {colour[0], colour[1], colour[2]});
+    } else {
+      scratch.ids.push_back(hits.receiver[h]);
+      scratch.weights[plain++] = w;
+    }
+  }
+  addRows(rows, scratch.ids, std::span<const float>(scratch.weights).first(plain),
+          gathered.incident.data());
+  addTintedRows(rows, simulation.channelMasks, scratch.tintedIds, scratch.tintedWeights,
+                gathered.incident.data());
+}
+
+/// The base colour that straight hit `h` brings, one hit after the other: `textured` counts those
+/// of textured meshes.
+Rgb tintOf(const Simulation& simulation, const ReceiverHits& hits, std::size_t h,
+           std::size_t& textured) {
+  if (!simulation.isTextured(hits.receiver[h])) return Rgb::Ones();
+  return transport::unpackColour(hits.colour[textured++]);
+}
+
 /// A receiver without a matrix needs no exits one by one: rows are summed where they lie.
 void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
                       const ReceiverHits& hits, const PassRows& previous, Gathered& gathered,
@@ -82,18 +120,19 @@ void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
   scratch.weights.resize(hits.receiver.size());
   for (std::size_t h = 0; h < hits.receiver.size(); ++h)
     scratch.weights[h] = weight * normal.dot(simulation.directions[hits.direction[h]]);
-  // Rows of receivers that are not diffuse are zero: they need no exception here.
-  addRows({previous.exit.data(), simulation.rowStride}, hits.receiver, scratch.weights,
-          gathered.incident.data());
-  if (!noLobes)
+  addDiffuseExits(simulation, hits, previous, gathered, scratch);
+  if (!noLobes) {
+    std::size_t textured = 0;
     for (std::size_t h = 0; h < hits.receiver.size(); ++h) {
       const std::uint32_t q = hits.receiver[h];
+      const Rgb tint = tintOf(simulation, hits, h, textured);
       if (!simulation.sendsLobe(q)) continue;
       const float w = weight * normal.dot(simulation.directions[hits.direction[h]]);
       prepareLobe(simulation, simulation.receivers.exponents[q], scratch);
-      addLobe(simulation, q, simulation.directions[hits.direction[h]], Rgb::Constant(w), previous,
-              scratch, gathered.incident.data());
+      addLobe(simulation, q, simulation.directions[hits.direction[h]], w * tint, previous, scratch,
+              gathered.incident.data());
     }
+  }
   for (const MirroredHit& hit : hits.mirrored) {
     const float w = weight * normal.dot(simulation.directions[hit.direction]);
     addExit(simulation, hit.receiver, hit.arrival, w * hit.throughput, previous, scratch,
@@ -115,6 +154,7 @@ void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
   float* exits = scratch.exits.data();
   float* harmonics = exits + kBatch * simulation.rowStride;
   scratch.wide.resize(std::max(scratch.wide.size(), simulation.rowStride));
+  std::size_t textured = 0;
   for (std::size_t begin = 0; begin < total; begin += kBatch) {
     const std::size_t count = std::min(kBatch, total - begin);
     for (std::size_t k = 0; k < count; ++k) {
@@ -125,8 +165,8 @@ void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
       double* exit = scratch.wide.data();
       std::fill_n(exit, simulation.rowStride, 0.0);
       if (straight)
-        addExit(simulation, hits.receiver[h], simulation.directions[direction], Rgb::Ones(),
-                previous, scratch, exit);
+        addExit(simulation, hits.receiver[h], simulation.directions[direction],
+                tintOf(simulation, hits, h, textured), previous, scratch, exit);
       else
         addExit(simulation, mirrored->receiver, mirrored->arrival, mirrored->throughput, previous,
                 scratch, exit);

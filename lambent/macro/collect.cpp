@@ -89,6 +89,17 @@ std::vector<float> matricesOf(const Simulation& s, const std::vector<std::uint32
   return matrices;
 }
 
+/// Whether a textured mesh sends light on without changing its colour, wherever a ray strikes.
+bool hasGreyColours(const scene::Scene& scene, const scene::Mesh& mesh) {
+  const scene::Material& material = scene.materials[mesh.material];
+  if (!isGrey(material.diffuse) || !isGrey(material.glossy)) return false;
+  if (!std::all_of(mesh.colors.begin(), mesh.colors.end(), isGrey)) return false;
+  const std::vector<std::uint8_t>& rgba = scene.textures[material.baseColorTexture].rgba;
+  for (std::size_t t = 0; t + 3 < rgba.size(); t += 4)
+    if (rgba[t] != rgba[t + 1] || rgba[t] != rgba[t + 2]) return false;
+  return true;
+}
+
 }  // namespace
 
 int channelsFor(const scene::Scene& scene, const PlacedReceivers& receivers, Kind kind) {
@@ -101,6 +112,8 @@ int channelsFor(const scene::Scene& scene, const PlacedReceivers& receivers, Kin
     if (painted || !isGrey(material.mirror) || !isGrey(material.transmitted)) return 3;
   }
   if (kind != Kind::Interreflected) return 1;
+  for (std::size_t m = 0; m < receivers.meshes.size(); ++m)
+    if (receivers.meshes[m].textured && !hasGreyColours(scene, scene.meshes[m])) return 3;
   const auto allGrey = [](const std::vector<Rgb>& colours) {
     return std::all_of(colours.begin(), colours.end(), isGrey);
   };

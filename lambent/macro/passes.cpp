@@ -35,12 +35,13 @@ double write(const Simulation& s, std::uint32_t receiver, const Gathered& gather
   float* exits = rows.exit.empty() ? nullptr : rows.exit.data() + receiver * s.rowStride;
   for (int c = 0; c < s.channels; ++c) {
     const double factor = diffuse ? s.receivers.diffuse[receiver][c] / kPi : 0.0;
+    const double sent = diffuse ? s.sentDiffuse[receiver][c] / kPi : 0.0;
     for (std::size_t j = c * s.inCount; j < (c + 1) * s.inCount; ++j) {
       const double exit = factor * gathered.incident[j];
       energy += exit * exit;
       // Closed forms yield −0 as well, and sums over passes, which begin at 0, do not.
       incident[j] = 0.0f + (diffuse ? static_cast<float>(gathered.incident[j]) : 0.0f);
-      if (exits) exits[j] = static_cast<float>(exit);
+      if (exits) exits[j] = static_cast<float>(sent * gathered.incident[j]);
     }
   }
   if (s.hasMatrix(receiver)) {

@@ -25,7 +25,8 @@ using KeptHits = transport::KeptHits<transport::PackedHits>;
 /// Where a pass over any range writes: rows of all receivers, shaped as simulation.h says.
 struct RowsToWrite {
   std::span<float> incident;  ///< [receiver][rowStride]: E
-  std::span<float> exit;      ///< [receiver][rowStride]: ρ/π E; empty: no pass follows
+  std::span<float> exit;  ///< [receiver][rowStride]: ρ/π E (Simulation::sentDiffuse); empty: no
+                          ///< pass follows
   std::span<float> matrices;  ///< [matrix][matrixStride()]: M
 };
 

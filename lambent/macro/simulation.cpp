@@ -1,10 +1,13 @@
 #include "lambent/macro/simulation.h"
 
+#include <algorithm>
+
 namespace lambent::macro {
 
 Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
                        const PlacedReceivers& receivers_, const trace::DirectionSet& directions_,
-                       const BakeOptions& options_, int channels_)
+                       const BakeOptions& options_, int channels_,
+                       std::span<const std::uint8_t> set)
     : scene(scene_),
       rays(rays_),
       receivers(receivers_),
@@ -21,16 +24,31 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
       inTable(directions_, inBands),
       cosine(sh::clampedCosine(inBands)),
       hemisphere(sh::hemisphere(inBands + outBands - 1)) {
+  if (!set.empty()) std::erase_if(order, [&](std::uint32_t r) { return set[r] != 0; });
+  sentDiffuse = receivers.diffuse, sentGlossy = receivers.glossy;
+  channelMasks.resize(3 * rowStride);
+  for (std::size_t c = 0; c < std::size_t(channels); ++c)
+    std::fill_n(channelMasks.begin() + c * rowStride + c * inCount, inCount, 1.0f);
+  texturedReceiver_.assign(receivers.size(), 0);
   matrixIndex.assign(receivers.size(), kNoMatrix);
   diffuseReceiver_.assign(receivers.size(), 0);
   lobeReceiver_.assign(receivers.size(), 0);
-  for (const PlacedReceivers::PerMesh& mesh : receivers.meshes)
-    for (std::uint32_t r = mesh.first; r < mesh.first + mesh.count; ++r) {
-      diffuseReceiver_[r] = mesh.isDiffuse;
-      lobeReceiver_[r] = mesh.isGlossy;
-      const bool local = mesh.local && options.kind != transfer::Kind::Unshadowed;
-      if (mesh.isGlossy || local) matrixIndex[r] = static_cast<std::uint32_t>(matrixCount++);
-    }
+  const auto describe = [&](std::uint32_t r, std::uint32_t m) {
+    const PlacedReceivers::PerMesh& mesh = receivers.meshes[m];
+    const scene::Material& material = scene.materials[scene.meshes[m].material];
+    diffuseReceiver_[r] = mesh.isDiffuse;
+    lobeReceiver_[r] = mesh.isGlossy;
+    texturedReceiver_[r] = mesh.textured;
+    if (mesh.textured) sentDiffuse[r] = material.diffuse, sentGlossy[r] = material.glossy;
+    const bool local = mesh.local && options.kind != transfer::Kind::Unshadowed;
+    if (mesh.isGlossy || local) matrixIndex[r] = static_cast<std::uint32_t>(matrixCount++);
+  };
+  for (std::uint32_t m = 0; m < receivers.meshes.size(); ++m)
+    for (std::uint32_t k = 0; k < receivers.meshes[m].count; ++k)
+      describe(receivers.meshes[m].first + k, m);
+  const std::size_t first = receivers.size() - receivers.witnesses.size();
+  for (std::size_t k = 0; k < receivers.witnesses.size(); ++k)
+    describe(static_cast<std::uint32_t>(first + k), receivers.witnesses[k]);
   if (matrixCount == 0) {
     outCount = 0;  // no matrices to hold
     return;

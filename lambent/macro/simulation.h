@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "lambent/macro/bake.h"
@@ -25,6 +26,7 @@ using transfer::Kind;
 using transfer::SimulatedField;
 using transport::addOuterProducts;
 using transport::addRows;
+using transport::addTintedRows;
 using transport::DirectionTable;
 using transport::HitCounts;
 using transport::Layout;
@@ -40,7 +42,8 @@ struct Simulation {
   const trace::DirectionSet& directions;
   trace::Veils veils;
   BakeOptions options;
-  std::vector<std::uint32_t> order;  ///< receivers, neighbours after each other: caches stay warm
+  std::vector<std::uint32_t> order;  ///< receivers that are simulated, neighbours after each other:
+                                     ///< caches stay warm
 
   int channels = 1;
   int inBands = 5, outBands = 5;
@@ -53,14 +56,20 @@ struct Simulation {
   sh::ZonalMoments cosine;                    ///< n bands
   sh::ZonalMoments hemisphere;                ///< n+N−1 bands
 
+  /// What of a receiver's reflectances its exits are made with: all, but for the base colour of
+  /// textured meshes, which a hit brings (transport::ReceiverHits::colour).
+  std::vector<Rgb> sentDiffuse, sentGlossy;
+  std::vector<float> channelMasks;  ///< [3][rowStride]: 1 where a row's entry is of the channel
+
   std::vector<std::uint32_t> matrixIndex;  ///< receiver → its matrix, or kNoMatrix
   std::size_t matrixCount = 0;
 
   static constexpr std::uint32_t kNoMatrix = 0xffffffffu;
 
+  /// `set`: 1 for receivers that are set by others after every pass, and not simulated; or empty.
   Simulation(const scene::Scene& scene, const trace::RayScene& rays,
              const PlacedReceivers& receivers, const trace::DirectionSet& directions,
-             const BakeOptions& options, int channels);
+             const BakeOptions& options, int channels, std::span<const std::uint8_t> set = {});
 
   /// Of receivers in the sequence of `order`: what a thread takes at a time.
   work::Chunks chunks() const { return work::Chunks(order.size(), 64); }
@@ -75,9 +84,10 @@ struct Simulation {
   bool sendsLobe(std::uint32_t receiver) const { return lobeReceiver_[receiver] != 0; }
   bool isLocal(std::uint32_t receiver) const { return hasMatrix(receiver) && !sendsLobe(receiver); }
   bool isDiffuse(std::uint32_t receiver) const { return diffuseReceiver_[receiver] != 0; }
+  bool isTextured(std::uint32_t receiver) const { return texturedReceiver_[receiver] != 0; }
 
  private:
-  std::vector<std::uint8_t> diffuseReceiver_, lobeReceiver_;
+  std::vector<std::uint8_t> diffuseReceiver_, lobeReceiver_, texturedReceiver_;
 };
 
 /// What one receiver gathers in one pass. `incident` is E; `matrix` is M. Sized by the simulation.
@@ -93,8 +103,8 @@ struct Scratch {
   trace::CastResult cast;
   ReceiverHits hits;
   std::vector<MirrorEscape> escapes;
-  std::vector<std::uint32_t> ids;
-  std::vector<float> weights;
+  std::vector<std::uint32_t> ids, tintedIds;
+  std::vector<float> weights, tintedWeights;  ///< tinted: one for each channel
   std::vector<double> wide, y;
   std::vector<float> exits, lobes, outFloat, inFloat;
   HitCounts counts;
@@ -117,7 +127,8 @@ std::vector<float> inTangentFrames(const Simulation& simulation,
 
 /// What a pass left at all receivers, for the next one.
 struct PassRows {
-  std::vector<float> exit;      ///< [receiver][rowStride]: ρ/π E, what a diffuse one sends on
+  std::vector<float> exit;  ///< [receiver][rowStride]: ρ/π E, what a diffuse one sends on, but
+                            ///< for a texture's colour
   std::vector<float> matrices;  ///< [matrix][matrixStride()]: M
 };
 

@@ -46,6 +46,13 @@ TEST(UvCheck, SeparateChartsPass) {
   }
 }
 
+TEST(UvCheck, CentresOnCommonEdgesAreCovered) {
+  // As many texels as cells: all centres lie on diagonals; half as many, on corners of cells.
+  for (const int size : {8, 4, 2, 1}) EXPECT_TRUE(checkUvs(gridPlane(1, 1, 8, 8), size, size));
+  EXPECT_TRUE(checkUvs(uvSphere(1, 64, 32), 64, 32));
+  EXPECT_TRUE(checkUvs(uvSphere(1, 64, 32), 16, 8));
+}
+
 TEST(UvCheck, AMirroredChartIsNoOverlapByItself) {
   Mesh mesh = gridPlane(1, 1, 3, 3);
   for (Vec2& uv : mesh.uvs) uv.x() = 1.0f - uv.x();

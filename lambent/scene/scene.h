@@ -135,6 +135,9 @@ struct SurfacePoint {
 SurfacePoint surfaceAt(const Scene& scene, std::uint32_t mesh, std::uint32_t triangle, float u,
                        float v);
 
+/// What multiplies the reflectances there: texture × vertex colour, in [0, 1].
+Rgb baseColorAt(const Scene& scene, std::uint32_t mesh, std::uint32_t triangle, float u, float v);
+
 /// The vertex of a mesh as a SurfacePoint (geometricNormal = normal).
 SurfacePoint surfaceAtVertex(const Scene& scene, std::uint32_t mesh, std::uint32_t vertex);
 

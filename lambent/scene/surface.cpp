@@ -63,17 +63,25 @@ Vec3 unitOr(const Vec3& v, const Vec3& fallback) {
   return length > 1e-20f && std::isfinite(length) ? Vec3(v / length) : fallback;
 }
 
-/// Texture × vertex colour into the reflectances of `material`.
-void applyMaterial(const Scene& scene, const Mesh& mesh, const Vec2& uv, const Rgb& color,
-                   SurfacePoint& point) {
+const Material& materialOf(const Scene& scene, const Mesh& mesh) {
   static const Material kDefault;
   const bool known = mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
-  const Material& material = known ? scene.materials[mesh.material] : kDefault;
-  Rgb base = color;
-  const int texture = material.baseColorTexture;
-  if (texture >= 0 && std::size_t(texture) < scene.textures.size() && !mesh.uvs.empty()) {
-    base *= sampleBaseColor(scene.textures[texture], uv);
-  }
+  return known ? scene.materials[mesh.material] : kDefault;
+}
+
+/// Texture × vertex colour.
+Rgb baseColor(const Scene& scene, const Mesh& mesh, const Vec2& uv, const Rgb& color) {
+  const int texture = materialOf(scene, mesh).baseColorTexture;
+  const bool has =
+      texture >= 0 && std::size_t(texture) < scene.textures.size() && !mesh.uvs.empty();
+  return has ? Rgb(color * sampleBaseColor(scene.textures[texture], uv)) : color;
+}
+
+/// Texture × vertex colour into the reflectances of the mesh's material.
+void applyMaterial(const Scene& scene, const Mesh& mesh, const Vec2& uv, const Rgb& color,
+                   SurfacePoint& point) {
+  const Material& material = materialOf(scene, mesh);
+  const Rgb base = baseColor(scene, mesh, uv, color);
   point.uv = uv;
   point.diffuse = material.diffuse * base;
   point.glossy = material.glossy * base;
@@ -158,6 +166,18 @@ SurfacePoint surfaceAt(const Scene& scene, std::uint32_t meshIndex, std::uint32_
   if (!mesh.colors.empty()) color = w * mesh.colors[i] + u * mesh.colors[j] + v * mesh.colors[k];
   applyMaterial(scene, mesh, uv, color, point);
   return point;
+}
+
+Rgb baseColorAt(const Scene& scene, std::uint32_t meshIndex, std::uint32_t triangle, float u,
+                float v) {
+  const Mesh& mesh = scene.meshes[meshIndex];
+  const auto [i, j, k] = mesh.triangles[triangle];
+  const float w = 1.0f - u - v;
+  Vec2 uv = Vec2::Zero();
+  if (!mesh.uvs.empty()) uv = w * mesh.uvs[i] + u * mesh.uvs[j] + v * mesh.uvs[k];
+  Rgb color = Rgb::Ones();
+  if (!mesh.colors.empty()) color = w * mesh.colors[i] + u * mesh.colors[j] + v * mesh.colors[k];
+  return baseColor(scene, mesh, uv, color);
 }
 
 SurfacePoint surfaceAtVertex(const Scene& scene, std::uint32_t meshIndex, std::uint32_t vertex) {

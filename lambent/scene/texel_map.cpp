@@ -10,15 +10,6 @@
 #include <limits>
 
 namespace lambent::scene {
-namespace {
-
-using Point = Eigen::Vector2d;
-
-double cross(const Point& a, const Point& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-}  // namespace
 
 TexelMap texelMap(const Mesh& mesh, int width, int height) {
   assert(width > 0 && height > 0 && mesh.uvs.size() == mesh.positions.size());
@@ -26,35 +17,13 @@ TexelMap texelMap(const Mesh& mesh, int width, int height) {
   map.width = width, map.height = height;
   map.triangle.assign(std::size_t(width) * height, kNobody);
   map.barycentric.assign(map.triangle.size(), Vec2(Vec2::Zero()));
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::array<Point, 3> p;
-    for (int k = 0; k < 3; ++k) {
-      const Vec2& uv = mesh.uvs[mesh.triangles[t][k]];
-      p[k] = Point(double(uv.x()) * width - 0.5, double(uv.y()) * height - 0.5);
-    }
-    const double area = cross(p[1] - p[0], p[2] - p[0]);
-    if (area == 0.0 || !std::isfinite(area)) continue;
-    const auto first = [&](int axis) {
-      const double low = std::min({p[0][axis], p[1][axis], p[2][axis]});
-      return static_cast<int>(std::ceil(std::max(low - 1e-6, 0.0)));
-    };
-    const auto last = [&](int axis, int count) {
-      const double high = std::max({p[0][axis], p[1][axis], p[2][axis]});
-      return static_cast<int>(std::floor(std::min(high + 1e-6, count - 1.0)));
-    };
-    const int x0 = first(0), x1 = last(0, width), y0 = first(1), y1 = last(1, height);
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        const Point at(x, y);
-        const double u = cross(at - p[0], p[2] - p[0]) / area;
-        const double v = cross(p[1] - p[0], at - p[0]) / area;
-        if (u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9) continue;
-        const std::size_t texel = std::size_t(y) * width + x;
-        if (map.triangle[texel] != kNobody) continue;
-        map.triangle[texel] = t;
-        map.barycentric[texel] = Vec2(static_cast<float>(u), static_cast<float>(v));
-      }
-  }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    visitTexels(mesh, mesh.triangles[t], width, height, [&](int x, int y, double u, double v) {
+      const std::size_t texel = std::size_t(y) * width + x;
+      if (map.triangle[texel] != kNobody) return;
+      map.triangle[texel] = t;
+      map.barycentric[texel] = Vec2(static_cast<float>(u), static_cast<float>(v));
+    });
   return map;
 }
 

@@ -4,19 +4,26 @@
 #include <string>
 
 #include "lambent/scene/diagnose.h"
+#include "lambent/scene/texel_map.h"
 
 namespace lambent::scene {
 namespace {
 
-/// Texel coordinates in steps of 1/4096 texel, whole numbers so that edges which two triangles
-/// share are the same edge for both.
-constexpr std::int64_t kStep = 4096;
-/// How far inside a triangle, in steps, a texel's centre must lie to be claimed by it.
-constexpr double kInside = kStep / 64.0;
+/// How far inside a triangle, in texels, a centre must lie to be claimed by it alone: triangles that
+/// share an edge do not overlap, however it was rounded.
+constexpr double kInside = 1.0 / 64.0;
 
-struct TexelPoint {
-  std::int64_t x, y;
-};
+/// How far inside its triangle the place with these barycentric coordinates lies, in texels.
+double depthInside(const Mesh& mesh, const Triangle& triangle, int width, int height, double u,
+                   double v) {
+  Eigen::Vector2d p[3];
+  for (int k = 0; k < 3; ++k)
+    p[k] = mesh.uvs[triangle[k]].cast<double>().cwiseProduct(Eigen::Vector2d(width, height));
+  const Eigen::Vector2d e = p[1] - p[0], f = p[2] - p[0];
+  const double area = std::abs(e.x() * f.y() - e.y() * f.x());
+  // A barycentric coordinate is 1 at its corner, and that far from the opposite edge.
+  return area * std::min({(1.0 - u - v) / (p[2] - p[1]).norm(), u / f.norm(), v / e.norm()});
+}
 
 std::string describe(const Mesh& mesh) {
   return mesh.name.empty() ? std::string("the mesh") : "mesh \"" + mesh.name + "\"";
@@ -50,57 +57,26 @@ Status checkUvs(const Mesh& mesh, int width, int height) {
     }
   }
 
-  constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> owner(std::size_t(width) * height, kNone);
+  std::vector<std::uint32_t> owner(std::size_t(width) * height, kNobody);
   std::size_t covered = 0, overlapping = 0;
   std::uint32_t firstPair[2] = {0, 0};
   int firstTexel[2] = {0, 0};
   for (std::size_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
-    TexelPoint p[3];
-    for (int i = 0; i < 3; ++i) {
-      const Vec2& uv = mesh.uvs[mesh.triangles[triangle][i]];
-      p[i] = {std::llround(double(uv.x()) * width * kStep),
-              std::llround(double(uv.y()) * height * kStep)};
-    }
-    const std::int64_t area =
-        (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-    if (area == 0) continue;
-    if (area < 0) std::swap(p[1], p[2]);  // a mirrored chart covers texels just the same
-
-    double margin[3];
-    for (int i = 0; i < 3; ++i) {
-      const TexelPoint &a = p[i], &b = p[(i + 1) % 3];
-      margin[i] = kInside * std::hypot(double(b.x - a.x), double(b.y - a.y));
-    }
-    const auto [minX, maxX] = std::minmax({p[0].x, p[1].x, p[2].x});
-    const auto [minY, maxY] = std::minmax({p[0].y, p[1].y, p[2].y});
-    const int x0 = int(std::max<std::int64_t>(minX / kStep - 1, 0));
-    const int x1 = int(std::min<std::int64_t>(maxX / kStep, width - 1));
-    const int y0 = int(std::max<std::int64_t>(minY / kStep - 1, 0));
-    const int y1 = int(std::min<std::int64_t>(maxY / kStep, height - 1));
-    for (int y = y0; y <= y1; ++y) {
-      for (int x = x0; x <= x1; ++x) {
-        const TexelPoint c = {x * kStep + kStep / 2, y * kStep + kStep / 2};
-        bool inside = true;
-        for (int i = 0; i < 3 && inside; ++i) {
-          const TexelPoint &a = p[i], &b = p[(i + 1) % 3];
-          const std::int64_t edge = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-          inside = double(edge) > margin[i];
-        }
-        if (!inside) continue;
-        std::uint32_t& own = owner[std::size_t(y) * width + x];
-        if (own == kNone) {
-          own = std::uint32_t(triangle);
-          ++covered;
-        } else {
-          if (overlapping == 0) {
-            firstPair[0] = own, firstPair[1] = std::uint32_t(triangle);
-            firstTexel[0] = x, firstTexel[1] = y;
-          }
-          ++overlapping;
-        }
+    const Triangle& corners = mesh.triangles[triangle];
+    visitTexels(mesh, corners, width, height, [&](int x, int y, double u, double v) {
+      ++covered;
+      if (!(depthInside(mesh, corners, width, height, u, v) > kInside)) return;
+      std::uint32_t& own = owner[std::size_t(y) * width + x];
+      if (own == kNobody) {
+        own = std::uint32_t(triangle);
+        return;
       }
-    }
+      if (overlapping == 0) {
+        firstPair[0] = own, firstPair[1] = std::uint32_t(triangle);
+        firstTexel[0] = x, firstTexel[1] = y;
+      }
+      ++overlapping;
+    });
   }
   if (overlapping > 0) {
     return report::badInput(

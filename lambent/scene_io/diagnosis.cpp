@@ -8,6 +8,7 @@
 
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/scene/winding.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -140,9 +141,24 @@ void makeCreasedNormals(Mesh& mesh, float crease, const std::string& place, Diag
                 place);
 }
 
+void addReversed(std::size_t triangles, const std::string& place, Diagnosis& diagnosis) {
+  diagnosis.add(Severity::Warning, "winding-reversed", triangles,
+                "triangles were wound against their normals; their winding was reversed, so that "
+                "what was their back is lit now",
+                place);
+}
+
 void finishNormals(Mesh& mesh, const FinishOptions& options, std::span<const std::uint32_t> groups,
                    const std::string& place, Diagnosis& diagnosis) {
   const std::size_t count = mesh.positions.size();
+  if (mesh.normals.size() != count) {
+    if (const std::size_t mixed = scene::reverseAgainstNeighbours(mesh); mixed > 0)
+      diagnosis.add(
+          Severity::Warning, "winding-mixed", mixed,
+          "triangles were wound against their neighbours; their winding was reversed, so "
+          "that each part faces one way: as most of it did or, of a closed part, outwards",
+          place);
+  }
   if (mesh.normals.size() != count && options.crease) {
     makeCreasedNormals(mesh, *options.crease, place, diagnosis);
     return;
@@ -165,6 +181,12 @@ void finishNormals(Mesh& mesh, const FinishOptions& options, std::span<const std
     const float squared = n.squaredNorm();
     if (std::abs(squared - 1.0f) > 1e-6f) n = n.stableNormalized();
   }
+  mesh.normals = std::move(own);
+  const std::size_t against = scene::reverseAgainstNormals(
+      mesh,
+      options.front == Front::Normals ? scene::LonePart::Normals : scene::LonePart::OutwardOnly);
+  own = std::move(mesh.normals);
+  if (against > 0) addReversed(against, place, diagnosis);
   std::vector<float> agreements = agreement(mesh, own);
   std::size_t opposite = countOpposite(agreements);
   const bool nearlyAll = opposite > 0 && double(opposite) >= 0.95 * double(count - useless);
@@ -173,8 +195,7 @@ void finishNormals(Mesh& mesh, const FinishOptions& options, std::span<const std
     reverseWinding(mesh);
     for (float& a : agreements) a = -a;
     opposite = countOpposite(agreements);
-    diagnosis.add(Severity::Warning, "winding-reversed", mesh.triangles.size(),
-                  "triangles were wound against their normals; the winding was reversed", place);
+    addReversed(mesh.triangles.size(), place, diagnosis);
   }
   if (opposite > 0) {
     for (std::size_t i = 0; i < count; ++i) {

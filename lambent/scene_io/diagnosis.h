@@ -57,6 +57,9 @@ struct FinishOptions {
 ///  - degenerate triangles (a height below a millionth of the longest side) are kept out;
 ///  - unused vertices are dropped;
 ///  - a position that is not finite is an error that names the vertex;
+///  - triangles that are wound against their own three normals and against their neighbours are
+///    reversed; where there are no normals, those that are wound against their neighbours
+///    (scene/winding.h);
 ///  - normals are made where there are none (angle-weighted), and where one is zero or not finite;
 ///    all are unit afterwards;
 ///  - a normal opposite to the winding of the triangles around it is turned to their front. If that

@@ -113,6 +113,26 @@ TEST(Diagnosis, AWindingThatAllNormalsContradict) {
   EXPECT_TRUE(f.mesh.normals[0].isApprox(-Vec3::UnitY()));
 }
 
+TEST(Diagnosis, MixedWindingIsDecidedTriangleByTriangle) {
+  const scene::Mesh right = scene::icosphere(1, 3);
+  for (const std::size_t every : {2u, 5u, 20u}) {
+    scene::Mesh mesh = right;
+    std::size_t wrong = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += every, ++wrong)
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    Finished f = finish(mesh);
+    EXPECT_EQ(countOf(f.findings, "winding-reversed"), wrong);
+    EXPECT_EQ(countOf(f.findings, "normals-flipped"), 0u);
+    EXPECT_EQ(f.mesh.normals, right.normals);
+    EXPECT_EQ(f.mesh.triangles, right.triangles);
+    mesh.normals.clear();
+    f = finish(mesh);
+    EXPECT_EQ(countOf(f.findings, "winding-mixed"), wrong);
+    for (std::size_t v = 0; v < right.normals.size(); ++v)
+      EXPECT_GT(f.mesh.normals[v].dot(right.normals[v]), 0.99f);
+  }
+}
+
 TEST(Diagnosis, InsideOutIsSaidAndLeft) {
   const scene::Mesh room = scene::room(Vec3(1, 1, 1));
   const Finished f = finish(room);

@@ -1,9 +1,9 @@
 #include "lambent/tone/compare.h"
 
-#include <cmath>
 #include <span>
 #include <string>
 
+#include "lambent/image/code_difference.h"
 #include "lambent/image/flip.h"
 
 namespace lambent::tone {
@@ -24,8 +24,8 @@ Result<image::Comparison> compare(const image::Image& test, const image::Image& 
   if (!measured) return measured;
   image::Comparison& result = *measured;
   if (options.displayReferred) {
-    result.psnr -= 20 * std::log10(result.psnrPeak);
-    result.psnrPeak = 1.0;
+    result.psnr = image::psnrOf(image::codeDifference(test, reference));
+    result.psnrPeak = 255.0;
     result.flip = image::meanOf(image::flip(test, reference, options.pixelsPerDegree));
   } else {
     result.flip = image::meanOf(image::flip(toneMap(test, options.exposureEv, options.curve),

@@ -10,7 +10,8 @@ namespace lambent::tone {
 
 struct CompareOptions {
   /// Both pictures are display-referred already (linear light in [0, 1], as read from PNG): FLIP
-  /// and PSNR take them as they are, with peak 1. Otherwise they are scene-referred: FLIP sees them
+  /// takes them as they are, and PSNR is of their 8-bit codes, with peak 255, as programs that
+  /// compare PNG pictures have it (image::psnrOf). Otherwise they are scene-referred: FLIP sees them
   /// exposed and tone-mapped as below, and PSNR's peak is the reference's largest channel.
   bool displayReferred = false;
   float exposureEv = 0.0f;

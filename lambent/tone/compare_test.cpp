@@ -50,7 +50,10 @@ TEST(Compare, KnownNumbers) {
   EXPECT_NEAR(c->largest, 0.2, 1e-6);
   CompareOptions display;
   display.displayReferred = true;
-  EXPECT_EQ(compare(test, reference, display)->psnrPeak, 1.0);
+  EXPECT_EQ(compare(test, reference, display)->psnrPeak, 255.0);
+  // Codes 0.5 → 188, 0.6 → 203, 1 → 255, and what is beyond 1 is 255 too: one step of 15 in three.
+  EXPECT_NEAR(compare(test, reference, display)->psnr,
+              20 * std::log10(255 / std::sqrt(15.0 * 15.0 / 3)), 1e-9);
 }
 
 TEST(Compare, SizesMustAgreeAndWhatIsNotFiniteIsCounted) {

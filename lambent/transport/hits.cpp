@@ -6,6 +6,7 @@
 #include "lambent/math/directions.h"
 #include "lambent/math/random.h"
 #include "lambent/math/sequences.h"
+#include "lambent/transport/packed_colour.h"
 
 namespace lambent::transport {
 
@@ -94,13 +95,20 @@ void sortHits(const scene::Scene& scene, const trace::RayScene& rays, const trac
         }
         const std::uint32_t who = drawReceiver(scene, receivers, end.hit->mesh, end.hit->triangle,
                                                end.hit->u, end.hit->v, draw.x(), draw.y());
-        hits.mirrored.push_back({who, hit.direction, end.direction, end.throughput});
+        const Rgb colour = receivers.meshes[end.hit->mesh].textured
+                               ? scene::baseColorAt(scene, end.hit->mesh, end.hit->triangle,
+                                                    end.hit->u, end.hit->v)
+                               : Rgb(Rgb::Ones());
+        hits.mirrored.push_back({who, hit.direction, end.direction, end.throughput * colour});
       }
       continue;
     }
     hits.receiver.push_back(drawReceiver(scene, receivers, place.mesh, place.triangle, hit.u, hit.v,
                                          draw.x(), draw.y()));
     hits.direction.push_back(static_cast<std::uint16_t>(hit.direction));
+    if (receivers.meshes[place.mesh].textured)
+      hits.colour.push_back(
+          packColour(scene::baseColorAt(scene, place.mesh, place.triangle, hit.u, hit.v)));
   }
   counts.backFaces += backFaces;
   if (2 * backFaces > cast.raysCast) ++counts.inside;

@@ -16,7 +16,7 @@ struct MirroredHit {
   std::uint32_t receiver;   ///< who lights: see drawReceiver
   std::uint32_t direction;  ///< as it left
   Vec3 arrival;             ///< unit, as it arrived
-  Rgb throughput;           ///< product of reflectances and of what veils let through
+  Rgb throughput;  ///< of mirrors and of what veils let through, and a textured end's base colour
 };
 
 /// A direction that left the scene after one or more mirrors or veils: direct light by way of them.
@@ -30,9 +30,12 @@ struct MirrorEscape {
 struct ReceiverHits {
   std::vector<std::uint32_t> receiver;   ///< who lights
   std::vector<std::uint16_t> direction;  ///< from where
+  /// Of the hits on textured meshes (PerMesh::textured), in their sequence: the base colour where
+  /// the ray struck, by packColour. Empty where nothing is textured.
+  std::vector<std::uint32_t> colour;
   std::vector<MirroredHit> mirrored;
 
-  void clear() { receiver.clear(), direction.clear(), mirrored.clear(); }
+  void clear() { receiver.clear(), direction.clear(), colour.clear(), mirrored.clear(); }
 };
 
 struct HitCounts {

@@ -73,6 +73,7 @@ TEST(PackedHits, GiveBackWhatTheyTook) {
       hits.direction.push_back(static_cast<std::uint16_t>(d));
     }
     if (step == 3) hits.mirrored.push_back({5, 6, Vec3(0, 1, 0), Rgb(0.5f, 0.25f, 1.0f)});
+    if (step == 40) hits.colour = {7, 8, 9};
     packed.add(hits, kDirections);
   }
   ReceiverHits got;
@@ -80,6 +81,7 @@ TEST(PackedHits, GiveBackWhatTheyTook) {
     packed.get(k, kDirections, got);
     EXPECT_EQ(got.receiver, given[k].receiver);
     EXPECT_EQ(got.direction, given[k].direction);
+    EXPECT_EQ(got.colour, given[k].colour);
     ASSERT_EQ(got.mirrored.size(), given[k].mirrored.size());
     for (const MirroredHit& hit : got.mirrored) EXPECT_EQ(hit.direction, 6u);
   }

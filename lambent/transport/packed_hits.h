@@ -1,4 +1,4 @@
-// The hits of several receivers in four to six bytes each.
+// The hits of several receivers in four to six bytes each; four more where they have a colour.
 #pragma once
 
 #include <bit>
@@ -16,7 +16,9 @@ class PackedHits {
   void add(const ReceiverHits& hits, std::size_t directionCount) {
     begin_.push_back(static_cast<std::uint32_t>(receiver_.size()));
     directionBegin_.push_back(static_cast<std::uint32_t>(directions_.size()));
+    colourBegin_.push_back(static_cast<std::uint32_t>(colour_.size()));
     mirroredBegin_.push_back(static_cast<std::uint32_t>(mirrored_.size()));
+    colour_.insert(colour_.end(), hits.colour.begin(), hits.colour.end());
     receiver_.insert(receiver_.end(), hits.receiver.begin(), hits.receiver.end());
     mirrored_.insert(mirrored_.end(), hits.mirrored.begin(), hits.mirrored.end());
     const std::size_t words = wordsFor(directionCount);
@@ -37,6 +39,7 @@ class PackedHits {
       to.assign(from.begin() + starts[which], from.begin() + static_cast<std::ptrdiff_t>(last));
     };
     slice(receiver_, begin_, hits.receiver);
+    slice(colour_, colourBegin_, hits.colour);
     slice(mirrored_, mirroredBegin_, hits.mirrored);
     const std::size_t words = wordsFor(directionCount);
     if (hits.receiver.size() <= words) return slice(directions_, directionBegin_, hits.direction);
@@ -47,17 +50,19 @@ class PackedHits {
   }
 
   std::size_t bytes() const {
-    return receiver_.size() * 4 + directions_.size() * 2 + mirrored_.size() * sizeof(MirroredHit);
+    return receiver_.size() * 4 + directions_.size() * 2 + colour_.size() * 4 +
+           mirrored_.size() * sizeof(MirroredHit);
   }
   void shrink() {
-    receiver_.shrink_to_fit(), directions_.shrink_to_fit(), mirrored_.shrink_to_fit();
+    receiver_.shrink_to_fit(), directions_.shrink_to_fit();
+    colour_.shrink_to_fit(), mirrored_.shrink_to_fit();
   }
 
  private:
   static std::size_t wordsFor(std::size_t directionCount) { return (directionCount + 15) / 16; }
 
-  std::vector<std::uint32_t> begin_, directionBegin_, mirroredBegin_;  ///< of every receiver
-  std::vector<std::uint32_t> receiver_;
+  std::vector<std::uint32_t> begin_, directionBegin_, colourBegin_, mirroredBegin_;  ///< of each
+  std::vector<std::uint32_t> receiver_, colour_;
   std::vector<std::uint16_t> directions_;
   std::vector<MirroredHit> mirrored_;
 };

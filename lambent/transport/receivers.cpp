@@ -6,6 +6,8 @@
 #include <string>
 
 #include "lambent/scene/diagnose.h"
+#include "lambent/scene/texel_map.h"
+#include "lambent/transport/texel_charts.h"
 
 namespace lambent::transport {
 
@@ -20,7 +22,7 @@ void add(PlacedReceivers& receivers, const scene::SurfacePoint& point, const Vec
   receivers.exponents.push_back(point.lobeExponent);
 }
 
-constexpr std::uint32_t kNobody = 0xffffffffu;
+using scene::kNobody;
 
 /// Every empty texel takes the receiver of a nearest full one: rings of breadth-first search over
 /// the eight neighbours, each texel choosing among its neighbours' full texels by distance.
@@ -66,38 +68,30 @@ Status placeTexels(const scene::Scene& scene, const TexelGrid& asked, float offs
   grid.width = asked.width, grid.height = asked.height;
   grid.receiverOfTexel.assign(std::size_t(asked.width) * asked.height, kNobody);
   grid.covered.assign(grid.receiverOfTexel.size(), 0);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    Eigen::Vector2d p[3];
-    for (int k = 0; k < 3; ++k) {
-      const Vec2& uv = mesh.uvs[mesh.triangles[t][k]];
-      p[k] =
-          Eigen::Vector2d(double(uv.x()) * asked.width - 0.5, double(uv.y()) * asked.height - 0.5);
-    }
-    const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-      return a.x() * b.y() - a.y() * b.x();
-    };
-    const double area = cross(p[1] - p[0], p[2] - p[0]);
-    if (area == 0.0) continue;
-    const auto low = [&](int axis) { return std::min({p[0][axis], p[1][axis], p[2][axis]}); };
-    const auto high = [&](int axis) { return std::max({p[0][axis], p[1][axis], p[2][axis]}); };
-    const int x0 = std::max(0, static_cast<int>(std::ceil(low(0) - 1e-6)));
-    const int x1 = std::min(asked.width - 1, static_cast<int>(std::floor(high(0) + 1e-6)));
-    const int y0 = std::max(0, static_cast<int>(std::ceil(low(1) - 1e-6)));
-    const int y1 = std::min(asked.height - 1, static_cast<int>(std::floor(high(1) + 1e-6)));
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        const Eigen::Vector2d at(x, y);
-        const double u = cross(at - p[0], p[2] - p[0]) / area;
-        const double v = cross(p[1] - p[0], at - p[0]) / area;
-        if (u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9) continue;
-        std::uint32_t& place = grid.receiverOfTexel[std::size_t(y) * asked.width + x];
-        if (place != kNobody) continue;
-        place = static_cast<std::uint32_t>(receivers.size());
-        grid.covered[std::size_t(y) * asked.width + x] = 1;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    scene::visitTexels(
+        mesh, mesh.triangles[t], asked.width, asked.height, [&](int x, int y, double u, double v) {
+          std::uint32_t& place = grid.receiverOfTexel[std::size_t(y) * asked.width + x];
+          if (place != kNobody) return;
+          place = static_cast<std::uint32_t>(receivers.size());
+          grid.covered[std::size_t(y) * asked.width + x] = 1;
+          const scene::SurfacePoint point =
+              scene::surfaceAt(scene, asked.mesh, t, static_cast<float>(u), static_cast<float>(v));
+          add(receivers, point, point.position + offset * point.normal);
+        });
+  // A chart between the centres of texels gets those around it that nobody else has.
+  for (const TinyChart& tiny : tinyCharts(mesh, asked.width, asked.height)) {
+    std::uint32_t own = kNobody;
+    for (const std::uint32_t texel : tiny.texels) {
+      if (grid.receiverOfTexel[texel] != kNobody) continue;
+      if (own == kNobody) {
+        own = static_cast<std::uint32_t>(receivers.size());
         const scene::SurfacePoint point =
-            scene::surfaceAt(scene, asked.mesh, t, static_cast<float>(u), static_cast<float>(v));
+            scene::surfaceAt(scene, asked.mesh, tiny.triangle, 1.0f / 3.0f, 1.0f / 3.0f);
         add(receivers, point, point.position + offset * point.normal);
       }
+      grid.receiverOfTexel[texel] = own;
+    }
   }
   dilate(grid);
   return Status::ok();
@@ -150,6 +144,13 @@ Status checkFrames(const scene::Scene& scene, const Placement& placement) {
 
 }  // namespace
 
+std::uint32_t PlacedReceivers::addWitness(std::uint32_t mesh, const scene::SurfacePoint& point,
+                                          const Vec3& origin) {
+  add(*this, point, origin);
+  witnesses.push_back(mesh);
+  return static_cast<std::uint32_t>(size() - 1);
+}
+
 Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placement& placement,
                                        float offset) {
   const std::span<const TexelGrid> texels = placement.texels;
@@ -169,6 +170,7 @@ Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placemen
     PlacedReceivers::PerMesh& place = receivers.meshes[m];
     place.first = static_cast<std::uint32_t>(receivers.size());
     if (material.isMirror()) continue;
+    place.textured = material.baseColorTexture >= 0 && !mesh.uvs.empty();
     place.isGlossy = material.isGlossy();
     place.isDiffuse = material.isDiffuse() || !place.isGlossy;  // black is a diffuse material too
     for (const LocalFrames& frames : placement.local)

@@ -47,13 +47,23 @@ struct PlacedReceivers {
     std::vector<std::uint32_t> receiverOfTexel;
     std::vector<std::uint8_t> covered;  ///< Texels: whether the texel's centre lies on the surface
     bool isDiffuse = false, isGlossy = false;
+    /// Whether a texture colours it, whose detail receivers are too few to hold: light that it sends
+    /// on takes the base colour where a ray strikes, not the receivers'.
+    bool textured = false;
     /// Bi-scale: a matrix records what arrives. What it sends on to others is diffuse, with the
     /// material's albedo: at the macro-scale the meso-structure is a matt surface.
     std::optional<LocalFrames> local;
   };
   std::vector<PerMesh> meshes;
+  /// Receivers behind those of the meshes: the mesh on which each stands. They are simulated and not
+  /// stored, for others to be set by (mend_buried.h).
+  std::vector<std::uint32_t> witnesses;
 
   std::size_t size() const { return positions.size(); }
+  /// Adds a witness on a mesh, whose rays start at `origin`; its number. No mesh's receivers may be
+  /// added after it.
+  std::uint32_t addWitness(std::uint32_t mesh, const scene::SurfacePoint& point,
+                           const Vec3& origin);
 };
 
 /// BadInput where texels are asked for and the UVs are missing, outside the unit square, or

@@ -6,12 +6,14 @@
 
 namespace lambent::transport {
 
-#define LAMBENT_DECLARE_ROW_KERNELS(isa)                                                   \
-  namespace isa {                                                                          \
-  void addRows(const float*, std::size_t, const std::uint32_t*, const float*, std::size_t, \
-               double*);                                                                   \
-  void addOuterProducts(const float*, std::size_t, std::size_t, const float*, std::size_t, \
-                        std::size_t, float*, std::size_t);                                 \
+#define LAMBENT_DECLARE_ROW_KERNELS(isa)                                                          \
+  namespace isa {                                                                                 \
+  void addRows(const float*, std::size_t, const std::uint32_t*, const float*, std::size_t,        \
+               double*);                                                                          \
+  void addTintedRows(const float*, std::size_t, const float*, const std::uint32_t*, const float*, \
+                     std::size_t, double*);                                                       \
+  void addOuterProducts(const float*, std::size_t, std::size_t, const float*, std::size_t,        \
+                        std::size_t, float*, std::size_t);                                        \
   }
 LAMBENT_DECLARE_ROW_KERNELS(baseline)
 #if defined(__x86_64__)
@@ -23,6 +25,7 @@ namespace {
 
 struct Kernels {
   decltype(&baseline::addRows) addRows = &baseline::addRows;
+  decltype(&baseline::addTintedRows) addTintedRows = &baseline::addTintedRows;
   decltype(&baseline::addOuterProducts) addOuterProducts = &baseline::addOuterProducts;
 };
 
@@ -31,8 +34,9 @@ const Kernels& kernels() {
     Kernels k;
 #if defined(__x86_64__)
     const math::Isa isa = math::bestIsa();
-    if (isa == math::Isa::Avx2) k = {&avx2::addRows, &avx2::addOuterProducts};
-    if (isa == math::Isa::Avx512) k = {&avx512::addRows, &avx512::addOuterProducts};
+    if (isa == math::Isa::Avx2) k = {&avx2::addRows, &avx2::addTintedRows, &avx2::addOuterProducts};
+    if (isa == math::Isa::Avx512)
+      k = {&avx512::addRows, &avx512::addTintedRows, &avx512::addOuterProducts};
 #endif
     return k;
   }();
@@ -45,6 +49,13 @@ void addRows(Rows rows, std::span<const std::uint32_t> ids, std::span<const floa
              double* out) {
   assert(ids.size() == weights.size() && rows.stride % kRowUnit == 0);
   kernels().addRows(rows.data, rows.stride, ids.data(), weights.data(), ids.size(), out);
+}
+
+void addTintedRows(Rows rows, std::span<const float> masks, std::span<const std::uint32_t> ids,
+                   std::span<const float> weights, double* out) {
+  assert(3 * ids.size() == weights.size() && masks.size() == 3 * rows.stride);
+  kernels().addTintedRows(rows.data, rows.stride, masks.data(), ids.data(), weights.data(),
+                          ids.size(), out);
 }
 
 void addOuterProducts(Rows left, std::size_t leftCount, Rows right, std::size_t count, float* out,

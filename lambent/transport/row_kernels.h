@@ -25,6 +25,11 @@ struct Rows {
 void addRows(Rows rows, std::span<const std::uint32_t> ids, std::span<const float> weights,
              double* out);
 
+/// The same with three weights a row, one for each channel: out[k] += Σ_r (Σ_c weights[3r + c] ·
+/// masks[c·stride + k]) · rows[ids[r]][k]. masks[c] is 1 where k belongs to channel c, 0 elsewhere.
+void addTintedRows(Rows rows, std::span<const float> masks, std::span<const std::uint32_t> ids,
+                   std::span<const float> weights, double* out);
+
 /// out[i·outStride + j] += Σ_h left[h][i] · right[h][j] for i < leftCount, j < right.stride: the
 /// product Leftᵀ·Right over `count` rows of both.
 void addOuterProducts(Rows left, std::size_t leftCount, Rows right, std::size_t count, float* out,

@@ -34,6 +34,21 @@ void addRowsStrip(const float* rows, size_t stride, const uint32_t* ids, const f
   }
 }
 
+void addTintedUnit(const float* rows, size_t stride, const Lane16 (&mask)[3], const uint32_t* ids,
+                   const float* weights, size_t count, double* out) {
+  for (size_t begin = 0; begin < count; begin += kBlock) {
+    const size_t end = begin + kBlock < count ? begin + kBlock : count;
+    Lane16 sum = {};
+    for (size_t r = begin; r < end; ++r) {
+      if (r + kPrefetch < count) __builtin_prefetch(rows + ids[r + kPrefetch] * stride);
+      const float* w = weights + 3 * r;
+      const Lane16 tint = w[0] * mask[0] + w[1] * mask[1] + w[2] * mask[2];
+      sum += tint * *reinterpret_cast<const Lane16*>(rows + ids[r] * stride);
+    }
+    for (size_t j = 0; j < kUnit; ++j) out[j] += static_cast<double>(sum[j]);
+  }
+}
+
 template <int kLeft>
 void addOuterStrip(const float* left, size_t leftStride, const float* right, size_t rightStride,
                    size_t count, float* out, size_t outStride) {
@@ -96,6 +111,16 @@ void addRows(const float* rows, size_t stride, const uint32_t* ids, const float*
       return addRowsStrip<5>(rest, stride, ids, weights, count, restOut);
     default:
       return;
+  }
+}
+
+void addTintedRows(const float* rows, size_t stride, const float* masks, const uint32_t* ids,
+                   const float* weights, size_t count, double* out) {
+  for (size_t k = 0; k < stride; k += kUnit) {
+    Lane16 mask[3];
+    for (size_t c = 0; c < 3; ++c)
+      mask[c] = *reinterpret_cast<const Lane16*>(masks + c * stride + k);
+    addTintedUnit(rows + k, stride, mask, ids, weights, count, out + k);
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "lambent/math/random.h"
+#include "lambent/transport/packed_colour.h"
 
 namespace lambent::transport {
 namespace {
@@ -30,6 +32,34 @@ TEST(RowKernels, AddRowsIsTheSumOfWeightedRowsForEveryWidth) {
         expected[k] += double(weights[r]) * table[ids[r] * stride + k];
     for (std::size_t k = 0; k < stride; ++k) EXPECT_NEAR(out[k], expected[k], 1e-4);
   }
+}
+
+TEST(RowKernels, AddTintedRowsHasAWeightForEachChannel) {
+  for (const std::size_t perChannel : {1u, 4u, 9u, 25u, 64u}) {
+    const std::size_t stride = paddedRow(3 * perChannel);
+    const std::vector<float> table = noise(50 * stride, stride), weights = noise(3 * 700, 2);
+    std::vector<float> masks(3 * stride);
+    for (std::size_t k = 0; k < 3 * perChannel; ++k) masks[k / perChannel * stride + k] = 1.0f;
+    math::Random random(3, 0);
+    std::vector<std::uint32_t> ids(700);
+    for (std::uint32_t& id : ids) id = random.below(50);
+    std::vector<double> out(stride, 1.0), expected(stride, 1.0);
+    addTintedRows({table.data(), stride}, masks, ids, weights, out.data());
+    for (std::size_t r = 0; r < ids.size(); ++r)
+      for (std::size_t k = 0; k < 3 * perChannel; ++k)
+        expected[k] += double(weights[3 * r + k / perChannel]) * table[ids[r] * stride + k];
+    for (std::size_t k = 0; k < stride; ++k) EXPECT_NEAR(out[k], expected[k], 1e-4);
+  }
+}
+
+TEST(PackedColour, IsFinerThanATexture) {
+  for (int code = 0; code < 256; ++code) {
+    const float linear = std::pow(float(code) / 255.0f, 2.2f);
+    const Rgb back = unpackColour(packColour(Rgb(linear, 1.0f - linear, 0.25f)));
+    EXPECT_NEAR(std::sqrt(back[0]), std::sqrt(linear), 0.5f / 1023.0f + 1e-6f);
+    EXPECT_NEAR(std::sqrt(back[1]), std::sqrt(1.0f - linear), 0.5f / 1023.0f + 1e-6f);
+  }
+  EXPECT_TRUE((unpackColour(packColour(Rgb(0, 1, 2))) == Rgb(0, 1, 1)).all());
 }
 
 TEST(RowKernels, AddOuterProductsIsTheProductOfTheTransposed) {

@@ -262,6 +262,9 @@ class Compare(ToolTest):
         self.assertAlmostEqual(summary["difference"], (2 * 6 + 3) / 24)
         self.assertAlmostEqual(summary["difference_lit"], (2 * 6 + 3) / 6)
         self.assertEqual(summary["difference_largest"], 6)
+        # Of the codes, as other programs have it: 16 reds are 6 apart and 8 greens 3.
+        square = (16 * 36 + 8 * 9) / (3 * 64)
+        self.assertAlmostEqual(summary["psnr"], 10 * math.log10(255 ** 2 / square), places=9)
         self.run_tool("compare", "a.png", "b.png", "--fail-above", "difference=0.7")
         self.run_tool("compare", "a.png", "b.png", "--fail-above", "difference_lit=0.7", code=FAILED)
 

@@ -1,15 +1,17 @@
-"""run.py NN-name: copies the folder of that name, runs every row that a table has for it, and says
-which failed. Without a name: that every row has its folder, and every folder a row."""
+"""run.py NN-name, in the folder of a suite (tests/field, tests/truth): copies the folder of that name,
+runs every row that the suite's tables have for it, and says which failed. Without a name: that every
+row has its folder, and every folder a row."""
 
 import shutil
 import sys
 import unittest
 from pathlib import Path
 
-import tables
-from checks import Tool
+SUITE = Path.cwd()
+sys.path.insert(0, str(SUITE))
 
-HERE = Path(__file__).parent
+import tables  # noqa: E402
+from checks import Tool  # noqa: E402
 
 
 class Case(Tool):
@@ -17,7 +19,7 @@ class Case(Tool):
 
     def runTest(self):
         rows = tables.ROWS[self.name]
-        shutil.copytree(HERE / self.name, self.dir, dirs_exist_ok=True)
+        shutil.copytree(SUITE / self.name, self.dir, dirs_exist_ok=True)
         for row in rows:
             with self.subTest(row=str(row)):
                 row.check(self)
@@ -25,10 +27,10 @@ class Case(Tool):
 
 class Tables(unittest.TestCase):
     def runTest(self):
-        folders = {path.name for path in HERE.glob("[0-9][0-9]-*")}
+        folders = {path.name for path in SUITE.glob("[0-9][0-9]-*")}
         self.assertEqual(folders, set(tables.ROWS))
         for name in folders:
-            self.assertTrue((HERE / name / "PROVENANCE").is_file(), name)
+            self.assertTrue((SUITE / name / "PROVENANCE").is_file(), name)
 
 
 if __name__ == "__main__":
