@@ -92,17 +92,20 @@ Result<std::optional<InterpolationError>> interpolationError(
   return std::optional(found);
 }
 
+std::string meshInWords(const scene::Scene& scene, std::uint32_t mesh) {
+  const std::string& name = scene.meshes[mesh].name;
+  return name.empty() ? "mesh " + std::to_string(mesh) : "mesh \"" + name + "\"";
+}
+
 Findings findingsOf(const InterpolationError& error, const scene::Scene& scene,
                     const InterpolationErrorOptions& options) {
   if (!(error.rms > options.tolerance)) return {};
   char size[48];
   std::snprintf(size, sizeof(size), "%.2g", error.rms);
-  const std::string& name = scene.meshes[error.worstMesh].name;
-  const std::string mesh =
-      name.empty() ? "mesh " + std::to_string(error.worstMesh) : "mesh \"" + name + "\"";
   return {{Severity::Warning, "coarse-receivers",
-           "triangles are too large for the shadows on them, most of all those of " + mesh +
-               ": between its receivers light is off by " + size +
+           "triangles are too large for the shadows on them, most of all those of " +
+               meshInWords(scene, error.worstMesh) + ": between its receivers light is off by " +
+               size +
                " of what a white surface sends back under an even sky. --refine cuts "
                "triangles where that is so, --texels bakes a mesh on a grid over its UVs",
            static_cast<std::uint64_t>(std::lround(error.beyond * double(error.samples)))}};

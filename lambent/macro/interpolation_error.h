@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
+#include <string>
 
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
@@ -26,8 +26,8 @@ struct InterpolationErrorOptions {
   int threads = 0;  ///< 0: as many as the machine has
 };
 
-/// The difference between direct light interpolated over triangles and simulated inside of them,
-/// as radiance of a white surface under skies whose radiance has a root mean square of 1 (sight.h
+/// The difference between shadows (direct light that is blocked) interpolated over triangles and
+/// simulated inside of them, as radiance of a white surface under skies whose radiance has a root mean square of 1 (sight.h
 /// has the formula). Half of the places lie evenly over all surfaces, the others where something
 /// stands before a surface. Places inside of bodies do not count.
 struct InterpolationError {
@@ -44,6 +44,9 @@ Result<std::optional<InterpolationError>> interpolationError(
     const scene::Scene& scene, const trace::RayScene& rays,
     const transport::PlacedReceivers& receivers, const InterpolationErrorOptions& options,
     const Progress& progress);
+
+/// How a finding calls a mesh: mesh "floor", or mesh 3 where it has no name.
+std::string meshInWords(const scene::Scene& scene, std::uint32_t mesh);
 
 /// "coarse-receivers", where the error is larger than the tolerance.
 Findings findingsOf(const InterpolationError& error, const scene::Scene& scene,

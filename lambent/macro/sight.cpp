@@ -16,8 +16,8 @@ bool isOpen(const Sight& sight, std::size_t bit) {
   return (sight.open[bit / 64] >> (bit % 64) & 1u) != 0;
 }
 
-float cosineWhereOpen(const Sight& sight, std::size_t bit, const Vec3& direction) {
-  return isOpen(sight, bit) ? std::max(0.0f, sight.normal.dot(direction)) : 0.0f;
+float cosineWhereBlocked(const Sight& sight, std::size_t bit, const Vec3& direction) {
+  return isOpen(sight, bit) ? 0.0f : std::max(0.0f, sight.normal.dot(direction));
 }
 
 }  // namespace
@@ -65,9 +65,9 @@ double SightTest::squaredError(const Sight& here, const std::array<const Sight*,
       const Vec3& direction = sets_[s][d];
       if (planeNormal.dot(direction) <= 0.0f) continue;
       const std::size_t bit = s * kSet + d;
-      float difference = cosineWhereOpen(here, bit, direction);
+      float difference = cosineWhereBlocked(here, bit, direction);
       for (int k = 0; k < 3; ++k)
-        difference -= weights[k] * cosineWhereOpen(*corners[std::size_t(k)], bit, direction);
+        difference -= weights[k] * cosineWhereBlocked(*corners[std::size_t(k)], bit, direction);
       if (std::abs(difference) < 1e-5f) continue;  // rounding
       scratch.ids.push_back(d), scratch.weights.push_back(difference);
     }

@@ -1,5 +1,7 @@
 // Private to this room: what points see of the sky, coarsely, and how far what is interpolated
-// between three points is from what a point between them sees.
+// between three points is from what a point between them sees. Light that is blocked is compared,
+// and not light that arrives: how normals turn between the corners of a smooth surface is no
+// shadow.
 //
 // Radiance here is that of a white surface, of direct light. As a measure of a difference of two
 // transfer vectors serves the radiance that it makes under skies of n bands whose radiance has a
@@ -51,8 +53,8 @@ class SightTest {
   };
   Sight at(const Spot& spot, Scratch& scratch) const;
 
-  /// An estimate of e² (above) between what `here` sees and what is interpolated from three corners
-  /// by `weights`, over directions above the plane of the triangle: those below meet the triangle
+  /// An estimate of e² (above) between what is hidden from `here` and what is interpolated of three
+  /// corners by `weights`, over directions above the plane of the triangle: those below meet the triangle
   /// itself. Without bias, were it below 0: it is a product of what two independent sets of
   /// directions say, which have the difference in common and not the noise. Where all see the
   /// same it is exactly 0.
