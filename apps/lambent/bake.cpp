@@ -9,6 +9,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/named_files.h"
+#include "apps/lambent/refine_arguments.h"
 #include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
@@ -29,6 +30,7 @@ struct BakeRequest {
   SceneArguments scene;
   std::filesystem::path output;
   TransferArguments transfer;
+  RefineArguments refine;
   transfer::Encoding encoding = transfer::Encoding::Float16;
   std::vector<std::string> texels;  ///< MESH=WxH, or WxH for every mesh with UVs
 };
@@ -42,6 +44,8 @@ constexpr std::string_view kBakeExamples = R"(Examples:
       As if everything were polished: a transfer matrix at every vertex.
   lambent bake ring.obj -o ring.glb --keep-shadowed
       One asset that can be shown with shadows alone, and with bounces.
+  lambent bake house.glb -o house.glb --refine 0.01
+      Triangles are cut where shadows fall between their corners, finer than by itself.
   lambent bake bunny.obj -o standing.glb --ground --albedo 0.7,0.6,0.5
       On a floor that takes its shadow.
   lambent bake ring.gltf -o ring.glb --texels ground=256x256
@@ -123,10 +127,14 @@ Status runBake(BakeRequest arguments, Console& console) {
                                  : trace::Edges::Fast;
   auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene, edges); });
   if (!rays) return rays.error();
-  auto receivers = transport::placeReceivers(*scene, {std::move(*grids), {}}, rays->offset());
+  const transport::Placement placement{std::move(*grids), {}};
+  auto receivers = transport::placeReceivers(*scene, placement, rays->offset());
   if (!receivers && receivers.error().kind == ErrorKind::BadInput)
     return badInput(arguments.scene.path.string() + ": " + receivers.error().message);
   if (!receivers) return receivers.error();
+  const auto looked = lookBetweenReceivers(arguments.refine,
+                                           {*scene, *rays, edges, *receivers, placement}, console);
+  if (!looked) return looked.error();
   auto field = macro::bake(*scene, *rays, *receivers, options, console.progress());
   if (!field) return field.error();
   *receivers = {};
@@ -160,6 +168,7 @@ Status runBake(BakeRequest arguments, Console& console) {
   for (const transfer::EncodedMesh& mesh : asset.transfer.meshes)
     if (const transfer::Receivers* held = transfer::receiversOf(mesh)) stored += held->size();
   Description transfer = describe(asset);
+  const Json between = asJson(*looked, asset.scene);
   const double rate = raySeconds > 0.0 ? double(rayCount) / raySeconds : 0.0;
   return console.finish(
       {{"output", arguments.output.string()},
@@ -168,6 +177,7 @@ Status runBake(BakeRequest arguments, Console& console) {
        {"rays", rayCount},
        {"rays_per_second", rate},
        {"seconds", seconds},
+       {"between_receivers", between},
        {"transfer", transfer.json}},
       fmt::format("{}: {}\n{}{} receivers, {} rays at {}, {} in all\n{}", arguments.output.string(),
                   formatBytes(double(bytes)), transfer.text, formatCount(stored),
@@ -200,6 +210,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       ->option_text("N")
       ->capture_default_str()
       ->group("Transfer");
+  arguments->refine.addTo(*app);
   app->add_option("--texels", arguments->texels,
                   "Bake a mesh on a grid over its UVs instead of at its vertices; without MESH: "
                   "every mesh with UVs. May be given several times. Of a glTF mesh without a "

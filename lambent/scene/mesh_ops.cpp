@@ -61,6 +61,35 @@ Mesh flipped(Mesh mesh) {
   return mesh;
 }
 
+std::vector<std::uint32_t> dropUnusedVertices(Mesh& mesh) {
+  constexpr std::uint32_t kUnused = 0xffffffffu;
+  std::vector<std::uint32_t> newFromOld(mesh.positions.size(), kUnused);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) newFromOld[v] = 0;
+  std::vector<std::uint32_t> oldFromNew;
+  oldFromNew.reserve(mesh.positions.size());
+  for (std::size_t i = 0; i < newFromOld.size(); ++i) {
+    if (newFromOld[i] == kUnused) continue;
+    newFromOld[i] = std::uint32_t(oldFromNew.size());
+    oldFromNew.push_back(std::uint32_t(i));
+  }
+  if (oldFromNew.size() == newFromOld.size()) return oldFromNew;
+  const auto keep = [&](auto& values) {
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < oldFromNew.size(); ++i) values[i] = values[oldFromNew[i]];
+    values.resize(oldFromNew.size());
+    values.shrink_to_fit();
+  };
+  keep(mesh.positions);
+  keep(mesh.normals);
+  keep(mesh.uvs);
+  keep(mesh.colors);
+  keep(mesh.alphas);
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) v = newFromOld[v];
+  return oldFromNew;
+}
+
 Mesh merge(std::span<const Mesh> parts) {
   Mesh whole;
   if (parts.empty()) return whole;

@@ -52,6 +52,9 @@ Mesh rotated(Mesh mesh, const Vec3& axis, float radians);
 /// The back becomes the front.
 Mesh flipped(Mesh mesh);
 
+/// Drops vertices that no triangle uses. Returns the old index of every vertex that is left.
+std::vector<std::uint32_t> dropUnusedVertices(Mesh& mesh);
+
 /// One mesh of many, with the first one's name and material. UVs and colours are kept if every
 /// part has them.
 Mesh merge(std::span<const Mesh> parts);

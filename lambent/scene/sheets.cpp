@@ -31,20 +31,27 @@ Mesh withBacks(Mesh mesh) {
   return mesh;
 }
 
-bool hasBacks(const Mesh& mesh) {
-  const std::size_t vertices = mesh.positions.size() / 2, triangles = mesh.triangles.size() / 2;
-  if (triangles == 0 || mesh.positions.size() != 2 * vertices ||
-      mesh.triangles.size() != 2 * triangles)
-    return false;
-  const auto back = std::uint32_t(vertices);
+std::vector<std::uint32_t> verticesOfOtherSide(const Mesh& mesh) {
+  const std::size_t triangles = mesh.triangles.size() / 2;
+  if (triangles == 0 || mesh.triangles.size() != 2 * triangles) return {};
+  std::vector<std::uint32_t> other;
+  const auto pair = [&](std::uint32_t front, std::uint32_t back) {
+    if (front == back || mesh.positions[front] != mesh.positions[back]) return false;
+    if (other.empty()) other.assign(mesh.positions.size(), kNoVertex);
+    if (other[front] == kNoVertex && other[back] == kNoVertex)
+      other[front] = back, other[back] = front;
+    return other[front] == back && other[back] == front;
+  };
   for (std::size_t t = 0; t < triangles; ++t) {
     const auto [a, b, c] = mesh.triangles[t];
-    if (a >= back || b >= back || c >= back) return false;
-    if (mesh.triangles[t + triangles] != Triangle{a + back, c + back, b + back}) return false;
+    const auto [x, z, y] = mesh.triangles[t + triangles];
+    if (!pair(a, x) || !pair(b, y) || !pair(c, z)) return {};
   }
-  for (std::size_t v = 0; v < vertices; ++v)
-    if (mesh.positions[v] != mesh.positions[v + vertices]) return false;
-  return true;
+  return other;
+}
+
+bool hasBacks(const Mesh& mesh) {
+  return !verticesOfOtherSide(mesh).empty();
 }
 
 std::uint32_t otherSideOf(const Mesh& mesh, std::uint32_t triangle) {
@@ -54,10 +61,11 @@ std::uint32_t otherSideOf(const Mesh& mesh, std::uint32_t triangle) {
 
 void layOutBacks(Mesh& mesh) {
   assert(hasBacks(mesh));
-  for (std::size_t v = 0; v < mesh.uvs.size(); ++v) {
-    const bool front = v < mesh.uvs.size() / 2;
-    mesh.uvs[v].x() = 0.5f * mesh.uvs[v].x() + (front ? 0.0f : 0.5f);
-  }
+  std::vector<float> shift(mesh.uvs.size(), 0.0f);
+  for (std::size_t t = mesh.triangles.size() / 2; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t]) shift[v] = 0.5f;
+  for (std::size_t v = 0; v < mesh.uvs.size(); ++v)
+    mesh.uvs[v].x() = 0.5f * mesh.uvs[v].x() + shift[v];
 }
 
 }  // namespace lambent::scene

@@ -5,6 +5,9 @@
 // keep, and needs no mark.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "lambent/scene/scene.h"
 
 namespace lambent::scene {
@@ -13,8 +16,14 @@ namespace lambent::scene {
 /// normal turned over; that of triangle t = (a, b, c) is t + m = (a + n, c + n, b + n).
 Mesh withBacks(Mesh mesh);
 
-/// Whether the second half of a mesh is the back of its first half, to the bit of its positions.
+/// Whether the second half of a mesh's triangles is the back of its first half: the same turned over,
+/// (a, b, c) as (a', c', b'), with vertices of their own at the same positions to the last bit.
 bool hasBacks(const Mesh& mesh);
+
+inline constexpr std::uint32_t kNoVertex = 0xffffffffu;
+/// For every vertex the one of the other side, kNoVertex where no triangle has it. Empty: the mesh has
+/// no backs.
+std::vector<std::uint32_t> verticesOfOtherSide(const Mesh& mesh);
 
 /// The triangle that lies on this one and faces the other way, of a mesh that has backs. The place
 /// with the barycentric coordinates (u, v) here has (v, u) there.

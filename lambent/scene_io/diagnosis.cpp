@@ -25,40 +25,6 @@ bool isDegenerate(const Mesh& mesh, const Triangle& t) {
   return !(ab.cross(ac).norm() > 1e-6 * longest);
 }
 
-template <class T>
-void compact(std::vector<T>& values, const std::vector<std::uint32_t>& oldFromNew) {
-  if (values.empty()) return;
-  std::vector<T> kept(oldFromNew.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = values[oldFromNew[i]];
-  values = std::move(kept);
-}
-
-/// Drops vertices that no triangle uses. Returns the old index of every vertex that is left.
-std::vector<std::uint32_t> dropUnused(Mesh& mesh) {
-  constexpr std::uint32_t kUnused = 0xffffffffu;
-  std::vector<std::uint32_t> newFromOld(mesh.positions.size(), kUnused);
-  for (const Triangle& t : mesh.triangles) {
-    for (std::uint32_t v : t) newFromOld[v] = 0;
-  }
-  std::vector<std::uint32_t> oldFromNew;
-  oldFromNew.reserve(mesh.positions.size());
-  for (std::size_t i = 0; i < newFromOld.size(); ++i) {
-    if (newFromOld[i] == kUnused) continue;
-    newFromOld[i] = std::uint32_t(oldFromNew.size());
-    oldFromNew.push_back(std::uint32_t(i));
-  }
-  if (oldFromNew.size() == newFromOld.size()) return oldFromNew;
-  compact(mesh.positions, oldFromNew);
-  compact(mesh.normals, oldFromNew);
-  compact(mesh.uvs, oldFromNew);
-  compact(mesh.colors, oldFromNew);
-  compact(mesh.alphas, oldFromNew);
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& v : t) v = newFromOld[v];
-  }
-  return oldFromNew;
-}
-
 /// Numbers groups from 0 where they are few among many: what is made for each number would be made
 /// for each part of a file of many parts.
 void renumber(std::vector<std::uint32_t>& groups) {
@@ -311,7 +277,7 @@ Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& f
       if (kept != nullptr) *kept = false;
     }
     const std::size_t vertices = mesh.positions.size();
-    oldFromNew = dropUnused(mesh);
+    oldFromNew = scene::dropUnusedVertices(mesh);
     if (const std::size_t gone = vertices - mesh.positions.size(); gone > 0) {
       diagnosis.add(Severity::Note, "unused-vertices", gone,
                     "vertices belong to no triangle and were dropped", place);
@@ -323,7 +289,8 @@ Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& f
   std::vector<std::uint32_t> groups;
   if (!options.groups.empty()) {
     groups.assign(options.groups.begin(), options.groups.end());
-    if (!options.keepAllVertices) compact(groups, oldFromNew);
+    for (std::size_t i = 0; i < oldFromNew.size(); ++i) groups[i] = groups[oldFromNew[i]];
+    if (!options.keepAllVertices) groups.resize(oldFromNew.size());
     renumber(groups);
   }
   const std::size_t unsplit = mesh.positions.size();

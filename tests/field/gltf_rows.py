@@ -50,6 +50,23 @@ def back_as_front(tool):
     tool.assertGreater(looks[0][1][0], 0.5)
 
 
+def a_box_has_its_shadow(tool):
+    """A floor of two triangles is cut where the shadow is; if that is turned off it is said."""
+    light = ("--light", "disc:120,45,30", "--size", "192x144", "--quiet")
+    tool.run_tool("reference", "floor.glb", *light, "--bands", 5, "--spp", 256, "-o", "truth.exr")
+    beyond = {}
+    for name, options in (("two", ("--refine", "off")), ("cut", ())):
+        summary = tool.run_json("bake", "floor.glb", "-o", f"{name}.glb", "--directions", 2048,
+                                "--encoding", "float32", *options)
+        codes = {found["code"] for found in summary["findings"]}
+        tool.assertIn("coarse-receivers" if name == "two" else "triangles-cut", codes)
+        tool.assertNotIn("triangles-cut" if name == "two" else "coarse-receivers", codes)
+        tool.run_tool("render", f"{name}.glb", *light, "-o", f"{name}.exr")
+        beyond[name] = tool.run_json("compare", "truth.exr", f"{name}.exr")["beyond_noise"]
+    tool.assertGreater(beyond["two"], 0.08)
+    tool.assertLess(beyond["cut"], 0.025)
+
+
 ROWS = {
     "04-gltf-far-node": [Same("far.glb", "near.glb", finds=("far-origin",))],
     "05-gltf-no-normals": [
@@ -88,4 +105,5 @@ ROWS = {
         Refused("draco_noidx.glb", says=("mesh 0", "Draco", "gltf-transform")),
         Refused("webp.glb", says=("image 0", "WebP", "damaged")),
     ],
+    "31-coarse-floor": [Custom("a shadow", a_box_has_its_shadow)],
 }
