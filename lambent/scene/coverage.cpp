@@ -6,12 +6,6 @@
 namespace lambent::scene {
 namespace {
 
-const Material& materialOf(const Scene& scene, const Mesh& mesh) {
-  static const Material kDefault;
-  const bool known = mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
-  return known ? scene.materials[std::size_t(mesh.material)] : kDefault;
-}
-
 const Texture* textureOf(const Scene& scene, const Mesh& mesh) {
   const int texture = materialOf(scene, mesh).baseColorTexture;
   if (texture < 0 || std::size_t(texture) >= scene.textures.size() || mesh.uvs.empty())

@@ -100,6 +100,9 @@ struct Scene {
   std::vector<Camera> cameras;
 };
 
+/// A mesh's material; the default one where it names none that there is.
+const Material& materialOf(const Scene& scene, const Mesh& mesh);
+
 struct Box {
   Vec3 lower = Vec3::Constant(std::numeric_limits<float>::infinity());
   Vec3 upper = Vec3::Constant(-std::numeric_limits<float>::infinity());

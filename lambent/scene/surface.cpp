@@ -63,12 +63,6 @@ Vec3 unitOr(const Vec3& v, const Vec3& fallback) {
   return length > 1e-20f && std::isfinite(length) ? Vec3(v / length) : fallback;
 }
 
-const Material& materialOf(const Scene& scene, const Mesh& mesh) {
-  static const Material kDefault;
-  const bool known = mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
-  return known ? scene.materials[mesh.material] : kDefault;
-}
-
 /// Texture × vertex colour.
 Rgb baseColor(const Scene& scene, const Mesh& mesh, const Vec2& uv, const Rgb& color) {
   const int texture = materialOf(scene, mesh).baseColorTexture;
@@ -91,6 +85,12 @@ void applyMaterial(const Scene& scene, const Mesh& mesh, const Vec2& uv, const R
 }
 
 }  // namespace
+
+const Material& materialOf(const Scene& scene, const Mesh& mesh) {
+  static const Material kDefault;
+  const bool known = mesh.material >= 0 && std::size_t(mesh.material) < scene.materials.size();
+  return known ? scene.materials[std::size_t(mesh.material)] : kDefault;
+}
 
 Box bounds(const Scene& scene) {
   Box box;
