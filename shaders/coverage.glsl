@@ -36,7 +36,8 @@ float veilNumber(ivec2 pixel, int number) {
   return float(h >> 8u) / 16777216.0;
 }
 
-bool isThere(float vertexAlpha, vec2 uv, ivec2 pixel) {
+// Of a fragment at a pixel and a depth, gl_FragCoord.
+bool isThere(float vertexAlpha, vec2 uv, vec3 fragment) {
   float share = kept;
   if (alphaMode != 0) {
     float alpha = alphaRule.x * vertexAlpha;
@@ -46,5 +47,9 @@ bool isThere(float vertexAlpha, vec2 uv, ivec2 pixel) {
     if (alphaMode == 1 && alpha < alphaRule.y) return false;
     if (alphaMode == 2) share *= alpha;
   }
-  return share >= 1.0 || fract(veilNumber(pixel, veil.x) + 0.618033988 * float(veil.y)) < share;
+  if (share >= 1.0) return true;
+  // What lies behind each other must not be there in the same sub-samples.
+  int layer = veil.x * 1024 + int(fragment.z * 512.0);
+  float number = veilNumber(ivec2(fragment.xy), layer);
+  return fract(number + 0.618033988 * float(veil.y)) < share;
 }

@@ -82,10 +82,11 @@ void SceneArguments::addSidesTo(CLI::App& app) {
   using scene_io::Sides;
   addChoice(app, "--sides", sides,
             {{"file", Sides::AsFileSays}, {"one", Sides::One}, {"two", Sides::Two}},
-            "What is lit and seen from behind as well: what the file calls double-sided, unless it "
-            "bounds a body; nothing (one); everything (two), as leaves and cloth of OBJ and PLY "
-            "need it, or a room seen from within. Two sides are twice the vertices")
-      ->option_text("file|one|two")
+            "file, one or two. What is lit and seen from behind as well: what the file calls "
+            "double-sided, unless it bounds a body; nothing (one); everything (two), as leaves and "
+            "cloth of OBJ and PLY need it, or a room seen from within. Two sides are twice the "
+            "vertices")
+      ->option_text("KIND")
       ->group("Reading");
 }
 

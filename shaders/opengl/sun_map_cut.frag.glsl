@@ -6,5 +6,5 @@ in vec2 uv;
 in float vertexAlpha;
 
 void main() {
-  if (!isThere(vertexAlpha, uv, ivec2(gl_FragCoord.xy))) discard;
+  if (!isThere(vertexAlpha, uv, gl_FragCoord.xyz)) discard;
 }

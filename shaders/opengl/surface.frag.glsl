@@ -139,7 +139,7 @@ vec3 litRadiance() { return vec3(0.0); }
 
 void main() {
 #if LAMBENT_ALPHA
-  if (!isThere(vertexAlpha, uv(), ivec2(gl_FragCoord.xy))) discard;
+  if (!isThere(vertexAlpha, uv(), gl_FragCoord.xyz)) discard;
 #endif
 #if LAMBENT_KIND == 1
   if (!chooseTexels()) discard;

@@ -11,7 +11,7 @@ in float vertexAlpha;
 layout(location = 0) out vec4 radiance;
 
 void main() {
-  if (!isThere(vertexAlpha, uv, ivec2(gl_FragCoord.xy))) discard;
+  if (!isThere(vertexAlpha, uv, gl_FragCoord.xyz)) discard;
   vec3 base = baseColor(hasColor ? color : vec3(1.0), uv);
   radiance = vec4(gl_FrontFacing ? reflectance * base : vec3(0.0), 1.0);
 }

@@ -102,18 +102,19 @@ TEST(Coverage, AMaskHasAThresholdAndABlendAShareOfSubSamples) {
   mapped::kept = 1.0f;
   mapped::alphaRule = vec2(0.5f, 0.3f);
   mapped::alphaMode = 0;
-  EXPECT_TRUE(mapped::isThere(0.1f, vec2(0.5f), ivec2(3, 4)));
+  EXPECT_TRUE(mapped::isThere(0.1f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
   mapped::alphaMode = 1;
-  EXPECT_FALSE(mapped::isThere(1.0f, vec2(0.5f), ivec2(3, 4)));
+  EXPECT_FALSE(mapped::isThere(1.0f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
   mapped::alphaRule = vec2(1.0f, 0.3f);
-  EXPECT_TRUE(mapped::isThere(1.0f, vec2(0.5f), ivec2(3, 4)));
-  EXPECT_FALSE(mapped::isThere(0.7f, vec2(0.5f), ivec2(3, 4)));
+  EXPECT_TRUE(mapped::isThere(1.0f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
+  EXPECT_FALSE(mapped::isThere(0.7f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
   const auto share = [] {
     int there = 0;
     for (int pixel = 0; pixel < 1000; ++pixel)
       for (int sample = 0; sample < 16; ++sample) {
         mapped::veil = ivec2(7, sample);
-        there += mapped::isThere(0.75f, vec2(0.5f), ivec2(pixel % 40, pixel / 40));
+        there +=
+            mapped::isThere(0.75f, vec2(0.5f), vec3(pixel % 40 + 0.5f, pixel / 40 + 0.5f, 0.3f));
       }
     return there / 16000.0;
   };

@@ -7,6 +7,6 @@ in float vertexAlpha;
 out vec4 color;
 
 void main() {
-  if (!isThere(vertexAlpha, place, ivec2(gl_FragCoord.xy))) discard;
+  if (!isThere(vertexAlpha, place, gl_FragCoord.xyz)) discard;
   color = vec4(0.0);
 }

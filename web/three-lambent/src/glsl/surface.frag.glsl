@@ -56,7 +56,7 @@ void main() {
 #include <logdepthbuf_fragment>
   ShadingPoint point = shadingPoint();
 #if LAMBENT_ALPHA
-  if (!isThere(vertexAlpha, point.uv, ivec2(gl_FragCoord.xy))) discard;
+  if (!isThere(vertexAlpha, point.uv, gl_FragCoord.xyz)) discard;
 #endif
   gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0);
 #if LAMBENT_KIND != 3
