@@ -86,10 +86,11 @@ Status layOutSides(std::vector<transport::TexelGrid>& grids, scene::Scene& scene
     scene::Mesh& mesh = scene.meshes[grid.mesh];
     if (!scene::hasBacks(mesh)) continue;
     const auto refused = [&](const std::string& why) {
-      return badUsage(fmt::format("--texels: mesh {} '{}' has two sides, whose texels lie beside "
-                                  "each other, and {}: bake it at its vertices, or its front alone "
-                                  "(--sides one)",
-                                  grid.mesh, mesh.name, why));
+      return badUsage(
+          fmt::format("--texels: mesh {} '{}' has two sides, whose texels lie beside "
+                      "each other, and {}: bake it at its vertices, or its front alone "
+                      "(--sides one)",
+                      grid.mesh, mesh.name, why));
     };
     if (scene.materials[std::size_t(mesh.material)].baseColorTexture >= 0)
       return refused("a texture, which has the same place on both");

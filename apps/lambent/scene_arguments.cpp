@@ -14,17 +14,18 @@ namespace {
 
 /// One material's reflectance moves to the kind that was asked for.
 void overrideMaterial(const SceneArguments& arguments, scene::Material& material) {
-  const Rgb own = material.isMirror()    ? material.mirror
-                  : material.isDiffuse() ? material.diffuse
-                                         : material.glossy;
+  const Rgb own = material.isMirror() ? material.mirror
+                  : material.isGlossy() && !material.isDiffuse()
+                      ? material.glossy
+                      : Rgb(material.diffuse + material.transmitted);
   const Rgb reflectance = arguments.albedo.value_or(own);
   std::optional<MaterialKind> kind = arguments.material;
   if (!kind && arguments.albedo)
-    kind = material.isMirror()    ? MaterialKind::Mirror
-           : material.isDiffuse() ? MaterialKind::Diffuse
-                                  : MaterialKind::Glossy;
+    kind = material.isMirror()                            ? MaterialKind::Mirror
+           : material.isGlossy() && !material.isDiffuse() ? MaterialKind::Glossy
+                                                          : MaterialKind::Diffuse;
   if (kind) {
-    material.diffuse = material.glossy = material.mirror = Rgb::Zero();
+    material.diffuse = material.glossy = material.mirror = material.transmitted = Rgb::Zero();
     (kind == MaterialKind::Mirror   ? material.mirror
      : kind == MaterialKind::Glossy ? material.glossy
                                     : material.diffuse) = reflectance;
@@ -81,10 +82,11 @@ void SceneArguments::addSidesTo(CLI::App& app) {
   using scene_io::Sides;
   addChoice(app, "--sides", sides,
             {{"file", Sides::AsFileSays}, {"one", Sides::One}, {"two", Sides::Two}},
-            "What is lit and seen from behind as well: what the file calls double-sided, unless it "
-            "bounds a body; nothing (one); everything (two), as leaves and cloth of OBJ and PLY "
-            "need it, or a room seen from within. Two sides are twice the vertices")
-      ->option_text("file|one|two")
+            "file, one or two. What is lit and seen from behind as well: what the file calls "
+            "double-sided, unless it bounds a body; nothing (one); everything (two), as leaves and "
+            "cloth of OBJ and PLY need it, or a room seen from within. Two sides are twice the "
+            "vertices")
+      ->option_text("KIND")
       ->group("Reading");
 }
 

@@ -25,8 +25,8 @@ struct SceneArguments {
   bool ground = false;           ///< a grey floor under the scene
   std::optional<double> smooth;  ///< degrees, of normals that the file does not give
   scene_io::Sides sides = scene_io::Sides::AsFileSays;
-  bool layout = false;           ///< texture coordinates are for texels (see LoadOptions)
-  ReadingArguments reading;      ///< for all files of the command
+  bool layout = false;       ///< texture coordinates are for texels (see LoadOptions)
+  ReadingArguments reading;  ///< for all files of the command
 
   void addTo(CLI::App& app);
   /// --sides, for verbs that can do with two.

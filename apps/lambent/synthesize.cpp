@@ -111,6 +111,20 @@ Json asJson(const bi_scale::SpreadReport& r) {
           {"matrix_error", r.matrixError}};
 }
 
+/// How many materials were there in parts alone.
+std::size_t makeWhole(scene::Scene& scene) {
+  std::size_t count = 0;
+  for (scene::Material& material : scene.materials) {
+    count +=
+        material.alphaMode != scene::AlphaMode::Opaque || material.transmitted.maxCoeff() > 0.0f;
+    material.alphaMode = scene::AlphaMode::Opaque;
+    material.diffuse += material.transmitted;
+    material.transmitted = Rgb::Zero();
+  }
+  for (scene::Mesh& mesh : scene.meshes) mesh.alphas.clear();
+  return count;
+}
+
 Status run(SynthesizeRequest arguments, Console& console) {
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
@@ -126,6 +140,14 @@ Status run(SynthesizeRequest arguments, Console& console) {
   arguments.scene.sides = scene_io::Sides::One;  // a patch has no other side
   auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
+  if (const std::size_t gaps = makeWhole(*scene); gaps > 0) {
+    const Finding lost{Severity::Warning, "alpha-ignored",
+                       fmt::format("{} materials are (partly) transparent and are taken as opaque: "
+                                   "what carries meso-structure has no holes",
+                                   gaps),
+                       gaps, true};
+    if (Status whole = console.accept({lost}); !whole) return whole;
+  }
 
   bi_scale::SpreadOptions& options = arguments.options;
   auto meshes = chosenMeshes(arguments, *scene);

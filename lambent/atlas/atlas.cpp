@@ -123,6 +123,7 @@ class AtlasMesh {
       mesh.positions.push_back(Vec3(mesh.positions[source]));
       if (!mesh.normals.empty()) mesh.normals.push_back(Vec3(mesh.normals[source]));
       if (!mesh.colors.empty()) mesh.colors.push_back(Rgb(mesh.colors[source]));
+      if (!mesh.alphas.empty()) mesh.alphas.push_back(float(mesh.alphas[source]));
       mesh.uvs.emplace_back();
     }
     mesh.uvs[vertex] = uv;

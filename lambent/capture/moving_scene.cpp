@@ -67,10 +67,9 @@ scene::Box bounds(const MovingScene& scene, double time) {
 
 Result<LoadedMovingScene> loadMovingScene(const std::filesystem::path& path,
                                           const MovingSceneOptions& options) {
-  Result<scene_io::LoadedScene> loaded = scene_io::load(
-      path, {.allowOutside = options.allowOutside,
-             .memoryLimit = options.memoryLimit,
-             .sides = scene_io::Sides::One});
+  Result<scene_io::LoadedScene> loaded = scene_io::load(path, {.allowOutside = options.allowOutside,
+                                                               .memoryLimit = options.memoryLimit,
+                                                               .sides = scene_io::Sides::One});
   if (!loaded) return loaded.error();
   LoadedMovingScene result;
   result.findings = std::move(loaded->findings);

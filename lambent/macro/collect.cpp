@@ -95,9 +95,10 @@ int channelsFor(const scene::Scene& scene, const PlacedReceivers& receivers, Kin
   if (kind == Kind::Unshadowed) return 1;
   for (const scene::Mesh& mesh : scene.meshes) {
     const scene::Material& material = scene.materials[mesh.material];
-    if (!material.isMirror()) continue;
+    const bool pane = material.transmitted.maxCoeff() > 0.0f;
+    if (!material.isMirror() && !pane) continue;
     const bool painted = material.baseColorTexture >= 0 || !mesh.colors.empty();
-    if (painted || !isGrey(material.mirror)) return 3;
+    if (painted || !isGrey(material.mirror) || !isGrey(material.transmitted)) return 3;
   }
   if (kind != Kind::Interreflected) return 1;
   const auto allGrey = [](const std::vector<Rgb>& colours) {

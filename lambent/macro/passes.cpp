@@ -22,7 +22,7 @@ bool hasMirrors(const scene::Scene& scene) {
 void castAndSort(const Simulation& s, std::uint32_t receiver, Scratch& scratch) {
   trace::castClosest(s.rays, s.directions, s.receivers.origins[receiver],
                      s.receivers.normals[receiver], scratch.cast);
-  transport::sortHits(s.scene, s.rays, s.receivers, s.directions, receiver, scratch.cast,
+  transport::sortHits(s.scene, s.rays, s.veils, s.receivers, s.directions, receiver, scratch.cast,
                       scratch.hits, scratch.escapes, scratch.counts);
 }
 
@@ -60,11 +60,12 @@ Result<DirectPass> directPass(const Simulation& s, work::ChunkRange range,
                               const work::Runner& runner, const RowsToWrite& rows) {
   const bool unshadowed = s.options.kind == transfer::Kind::Unshadowed;
   const bool bouncing = s.isBouncing();
-  const bool closest = bouncing || hasMirrors(s.scene);
+  const bool closest = bouncing || hasMirrors(s.scene) || s.veils.any();
   const work::Stage stage{unshadowed ? "unshadowed transfer"
                           : bouncing ? "shadows and hits"
-                          : closest  ? "shadows and mirrors"
-                                     : "shadows",
+                          : closest
+                              ? hasMirrors(s.scene) ? "shadows and mirrors" : "shadows and veils"
+                              : "shadows",
                           unshadowed ? "receivers" : "rays",
                           unshadowed ? 1 : static_cast<std::uint64_t>(s.options.directions) / 2};
   DirectPass pass{{}, KeptHits(bouncing ? range : work::ChunkRange{}, s.options.hitMemory)};

@@ -38,6 +38,7 @@ struct Simulation {
   const trace::RayScene& rays;
   const PlacedReceivers& receivers;
   const trace::DirectionSet& directions;
+  trace::Veils veils;
   BakeOptions options;
   std::vector<std::uint32_t> order;  ///< receivers, neighbours after each other: caches stay warm
 

@@ -35,16 +35,30 @@ void turn(scene::Scene& scene, const Turn& rotated) {
 }
 
 Result<LoadedPatch> loadMesh(const std::filesystem::path& path, const PatchFileOptions& options) {
-  Result<scene_io::LoadedScene> loaded = scene_io::load(
-      path, {.allowOutside = options.allowOutside,
-             .memoryLimit = options.memoryLimit,
-             .sides = scene_io::Sides::One});  // nobody sees a patch from below
+  Result<scene_io::LoadedScene> loaded =
+      scene_io::load(path, {.allowOutside = options.allowOutside,
+                            .memoryLimit = options.memoryLimit,
+                            .sides = scene_io::Sides::One});  // nobody sees a patch from below
   if (!loaded) return loaded.error();
   Findings findings = std::move(loaded->findings);
   Patch patch;
   patch.name = path.stem().string();
   patch.scene = std::move(loaded->scene);
   patch.scene.cameras.clear();
+  std::uint64_t gaps = 0;
+  for (scene::Material& material : patch.scene.materials) {
+    gaps +=
+        material.alphaMode != scene::AlphaMode::Opaque || material.transmitted.maxCoeff() > 0.0f;
+    material.alphaMode = scene::AlphaMode::Opaque;
+    material.diffuse += material.transmitted;
+    material.transmitted = Rgb::Zero();
+  }
+  if (gaps > 0)
+    findings.push_back({Severity::Warning, "alpha-ignored",
+                        std::to_string(gaps) +
+                            " materials are (partly) transparent and are taken as opaque: a patch "
+                            "has no holes",
+                        gaps, true});
   if (options.up == UpAxis::Y) turn(patch.scene, patchFromYUp);
   const scene::Box box = scene::bounds(patch.scene);
   const Vec3 span = box.upper - box.lower;

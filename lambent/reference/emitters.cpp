@@ -9,21 +9,25 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/scene/coverage.h"
+
 namespace lambent::reference {
 
-Emitters::Emitters(const scene::Scene& scene) {
+Emitters::Emitters(const scene::Scene& scene) : scene_(scene) {
   double sum = 0;
-  for (const scene::Mesh& mesh : scene.meshes) {
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    const scene::Mesh& mesh = scene.meshes[m];
     const scene::Material& material = scene.materials[std::size_t(mesh.material)];
     if (!material.isEmitter() || material.isMirror()) continue;
-    for (const scene::Triangle& t : mesh.triangles) {
+    for (std::uint32_t number = 0; number < mesh.triangles.size(); ++number) {
+      const scene::Triangle& t = mesh.triangles[number];
       const Vec3 corner = mesh.positions[t[0]];
       const Vec3 edge1 = mesh.positions[t[1]] - corner, edge2 = mesh.positions[t[2]] - corner;
       const Vec3 cross = edge1.cross(edge2);
       const float twiceArea = cross.norm();
       if (!(twiceArea > 0)) continue;
       sum += 0.5 * double(twiceArea) * double(material.emission.mean());
-      triangles_.push_back({corner, edge1, edge2, cross / twiceArea, material.emission});
+      triangles_.push_back({corner, edge1, edge2, cross / twiceArea, material.emission, m, number});
       cumulative_.push_back(sum);
     }
   }
@@ -36,8 +40,9 @@ Emitters::Sample Emitters::sample(const Vec2& place, float choice) const {
   const auto at = std::min(std::size_t(found - cumulative_.begin()), triangles_.size() - 1);
   const Triangle& triangle = triangles_[at];
   const float root = std::sqrt(place.x());
-  return {triangle.corner + (1 - root) * triangle.edge1 + place.y() * root * triangle.edge2,
-          triangle.normal, triangle.emission};
+  const float u = 1 - root, v = place.y() * root;
+  return {triangle.corner + u * triangle.edge1 + v * triangle.edge2, triangle.normal,
+          triangle.emission, scene::coverageAt(scene_, triangle.mesh, triangle.triangle, u, v)};
 }
 
 // A triangle is drawn by area times mean emission and a point of it evenly: per area, the density

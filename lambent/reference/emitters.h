@@ -1,6 +1,7 @@
 // The surfaces of a scene that emit light, as something to draw from.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "lambent/math/types.h"
@@ -11,6 +12,7 @@ namespace lambent::reference {
 /// Points of emitting fronts, drawn in proportion to what they emit.
 class Emitters {
  public:
+  /// Keeps a reference: the scene must outlive it.
   explicit Emitters(const scene::Scene& scene);
   bool empty() const { return triangles_.empty(); }
 
@@ -18,6 +20,7 @@ class Emitters {
     Vec3 position;
     Vec3 normal;  ///< unit, by the triangle's winding
     Rgb emission;
+    float coverage;  ///< share of the surface that is there, [0, 1]
   };
   /// For a pair and a number in [0, 1), all uniform. There must be emitters.
   Sample sample(const Vec2& place, float choice) const;
@@ -29,7 +32,9 @@ class Emitters {
   struct Triangle {
     Vec3 corner, edge1, edge2, normal;
     Rgb emission;
+    std::uint32_t mesh, triangle;
   };
+  const scene::Scene& scene_;
   std::vector<Triangle> triangles_;
   std::vector<double> cumulative_;  ///< Σ of area times mean emission up to and with a triangle
 };

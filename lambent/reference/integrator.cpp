@@ -26,6 +26,7 @@ namespace lambent::reference {
 namespace {
 
 constexpr int kMostMirrors = 64;  ///< in a row; two mirrors that face each other end somewhere
+constexpr int kMostVeils = 1024;  ///< in a row
 constexpr int kRouletteDepth = 4;
 constexpr float kLeastSurvival = 0.05f;
 
@@ -33,7 +34,12 @@ constexpr float kLeastSurvival = 0.05f;
 
 Integrator::Integrator(const scene::Scene& scene, const trace::RayScene& rays,
                        const light::Environment& environment, const PathTraceOptions& options)
-    : scene_(scene), rays_(rays), environment_(environment), options_(options), emitters_(scene) {
+    : scene_(scene),
+      rays_(rays),
+      environment_(environment),
+      options_(options),
+      emitters_(scene),
+      veils_(scene) {
   for (const scene::Material& material : scene.materials) hasMirrors_ |= material.isMirror();
 }
 
@@ -50,11 +56,11 @@ void Integrator::lookFrom(const scene::Camera& camera) {
 
 /// Of what comes through it, air leaves a share and adds its own.
 void Integrator::passAir(const scene::Ray& ray, std::optional<float> distance, int mirrors,
-                         Rgb& tint, Rgb& veil) const {
-  if (shafts_ && mirrors == 0) veil -= tint * shafts_->missing(ray, distance, towardsSun_);
+                         Rgb& tint, Rgb& haze) const {
+  if (shafts_ && mirrors == 0) haze -= tint * shafts_->missing(ray, distance, towardsSun_);
   if (!distance) return;
   const sky::AirBetween air = options_.air->between(ray.direction, *distance);
-  veil += tint * air.inScattered().cast<float>();
+  haze += tint * air.inScattered().cast<float>();
   tint *= air.extinction.cast<float>();
 }
 
@@ -64,13 +70,31 @@ Rgb Integrator::radianceBehind(const Escaped& escaped) const {
                       : radiance;
 }
 
+/// What a ray meets. Of a veil it meets the surface, or goes on behind it: one of both by chance.
+std::optional<trace::Hit> Integrator::met(const Vec3& origin, const Vec3& direction, Rgb& tint,
+                                          Sampler& sampler) const {
+  std::optional<trace::Hit> hit = rays_.closest(origin, direction);
+  for (int veils = 0; hit && veils_.any() && veils_.has(hit->mesh); ++veils) {
+    const Rgb passed = veils_.passed(*hit);
+    const float there = veils_.coverage(*hit), behind = passed.mean();
+    const float chance = behind / std::max(there + behind, 1e-12f);
+    if (veils == kMostVeils || !(sampler.next().x() < chance)) {
+      tint *= veils == kMostVeils ? 0.0f : there / (1 - chance);
+      break;
+    }
+    tint *= passed / chance;
+    hit = rays_.closest(origin, direction, trace::Veils::beyond(*hit));
+  }
+  return hit;
+}
+
 Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint,
-                                   Rgb* veil) const {
+                                   Sampler& sampler, Rgb* haze) const {
   for (;; ++mirrors) {
-    const std::optional<trace::Hit> hit = rays_.closest(origin, direction);
-    if (veil && options_.air)
+    const std::optional<trace::Hit> hit = met(origin, direction, tint, sampler);
+    if (haze && options_.air)
       passAir({origin, direction}, hit ? std::optional(hit->distance) : std::nullopt, mirrors, tint,
-              *veil);
+              *haze);
     if (!hit) return Escaped{origin, direction, mirrors};
     if (hit->backFace) return Blocked{};
     const scene::SurfacePoint point =
@@ -89,7 +113,7 @@ Rgb Integrator::leaving(const scene::SurfacePoint& point, const Vec3& toViewer,
   if (!(point.mirror.maxCoeff() > 0)) return point.emission + scattered(point, toViewer, sampler);
   Rgb tint = point.mirror;
   const Vec3 away = math::reflectAbout(toViewer, point.normal).normalized();
-  const End end = follow(lifted(point), away, 1, tint);
+  const End end = follow(lifted(point), away, 1, tint, sampler);
   if (const auto* escaped = std::get_if<Escaped>(&end))
     return tint * environment_.radiance(escaped->direction);
   if (const auto* surface = std::get_if<Surface>(&end))
@@ -98,17 +122,17 @@ Rgb Integrator::leaving(const scene::SurfacePoint& point, const Vec3& toViewer,
 }
 
 Integrator::Seen Integrator::seen(const scene::Ray& ray, Sampler& sampler) const {
-  Rgb tint = Rgb::Ones(), veil = Rgb::Zero();
-  const End end = follow(ray.origin, ray.direction, 0, tint, &veil);
+  Rgb tint = Rgb::Ones(), haze = Rgb::Zero();
+  const End end = follow(ray.origin, ray.direction, 0, tint, sampler, &haze);
   if (const auto* surface = std::get_if<Surface>(&end))
-    return {veil + tint * (surface->point.emission +
+    return {haze + tint * (surface->point.emission +
                            scattered(surface->point, surface->toViewer, sampler)),
             1.0f};
   if (const auto* escaped = std::get_if<Escaped>(&end)) {
     if (escaped->mirrors == 0 && !options_.background) return {Rgb::Zero(), 0.0f};
-    return {veil + tint * radianceBehind(*escaped), 1.0f};
+    return {haze + tint * radianceBehind(*escaped), 1.0f};
   }
-  return {veil, 1.0f};
+  return {haze, 1.0f};
 }
 
 Rgb Integrator::drawnFromEmitters(const Vec3& origin, const Scattering& scattering,
@@ -123,8 +147,8 @@ Rgb Integrator::drawnFromEmitters(const Vec3& origin, const Scattering& scatteri
   const float pdf = emitters_.pdf(drawn.emission, distance, -direction.dot(drawn.normal));
   if (!(value > 0).any() || !std::isfinite(pdf)) return Rgb::Zero();
   // Up to just before the emitter itself.
-  if (rays_.occluded(origin, direction, 0, distance * (1 - 1e-4f))) return Rgb::Zero();
-  return value * drawn.emission / (pdf + scattering.pdf(direction));
+  const Rgb through = veils_.throughput(rays_, origin, direction, distance * (1 - 1e-4f));
+  return value * through * drawn.coverage * drawn.emission / (pdf + scattering.pdf(direction));
 }
 
 Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sampler) const {
@@ -142,11 +166,14 @@ Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sam
         environment_.sample(lightNumbers.x(), lightNumbers.y());
     if (drawn.pdf > 0 && (drawn.radianceOverPdf != 0).any()) {
       const Rgb value = scattering.value(drawn.direction);
-      if ((value > 0).any() && !(options_.shadows && rays_.occluded(origin, drawn.direction))) {
+      const Rgb through = (value > 0).any() && options_.shadows
+                              ? veils_.throughput(rays_, origin, drawn.direction)
+                              : Rgb(Rgb::Ones());
+      if ((value > 0).any() && (through > 0).any()) {
         const float weight = std::isinf(drawn.pdf)
                                  ? 1.0f
                                  : drawn.pdf / (drawn.pdf + scattering.pdf(drawn.direction));
-        sum += throughput * value * drawn.radianceOverPdf * weight;
+        sum += throughput * value * through * drawn.radianceOverPdf * weight;
       }
     }
 
@@ -163,9 +190,10 @@ Rgb Integrator::scattered(scene::SurfacePoint point, Vec3 toViewer, Sampler& sam
     if (!options_.shadows) {
       end = Escaped{origin, direction, 0};
     } else if (bounce == bounces && !hasMirrors_ && emitters_.empty()) {
-      if (!rays_.occluded(origin, direction)) end = Escaped{origin, direction, 0};
+      throughput *= veils_.throughput(rays_, origin, direction);
+      if ((throughput > 0).any()) end = Escaped{origin, direction, 0};
     } else {
-      end = follow(origin, direction, 0, throughput);
+      end = follow(origin, direction, 0, throughput, sampler);
     }
     if (const auto* escaped = std::get_if<Escaped>(&end)) {
       const float weight =

@@ -11,6 +11,7 @@
 #include "lambent/reference/shadowed_air.h"
 #include "lambent/scene/camera.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/trace/veils.h"
 
 namespace lambent::reference {
 
@@ -44,11 +45,14 @@ class Integrator {
     int mirrors;    ///< on the way
   };
   /// Where a ray ends when mirrors are followed, and what they left of the light in `tint`; and air,
-  /// if `veil` is asked for: what it added.
+  /// if `haze` is asked for: what it added.
   using End = std::variant<Blocked, Escaped, Surface>;
-  End follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint, Rgb* veil = nullptr) const;
+  End follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint, Sampler& sampler,
+             Rgb* haze = nullptr) const;
+  std::optional<trace::Hit> met(const Vec3& origin, const Vec3& direction, Rgb& tint,
+                                Sampler& sampler) const;
   void passAir(const scene::Ray& ray, std::optional<float> distance, int mirrors, Rgb& tint,
-               Rgb& veil) const;
+               Rgb& haze) const;
   Rgb radianceBehind(const Escaped& escaped) const;
 
   /// Without what the point itself emits.
@@ -61,6 +65,7 @@ class Integrator {
   const light::Environment& environment_;
   PathTraceOptions options_;
   Emitters emitters_;
+  trace::Veils veils_;
   std::optional<ShadowedAir> shafts_;
   Vec3 towardsSun_ = Vec3::UnitY();  ///< of shafts_
   bool hasMirrors_ = false;

@@ -17,18 +17,28 @@
 #include "lambent/shade/picture_frame.h"
 #include "lambent/shade/rtt_footprint.h"
 #include "lambent/trace/ray_scene.h"
+#include "lambent/trace/veils.h"
 #include "lambent/work/runner.h"
 
 namespace lambent::reference {
 namespace {
 
 using transfer::Numbers;
+constexpr int kMostSeenThrough = 256;  ///< seen through, in a row
+
 using Surface = transfer::Surface<Numbers>;
 using BiScale = transfer::BiScale<Numbers>;
+
+/// What a ray sees: radiance, and the share of it that something is before the background.
+struct SeenThrough {
+  Rgb radiance = Rgb::Zero();
+  float coverage = 0.0f;
+};
 
 struct LitScene {
   const asset::Asset& asset;
   const trace::RayScene& rays;
+  const trace::Veils veils;
   const light::Environment& environment;
   const shade::PictureOptions& options;
   shade::SampleWidth width;
@@ -40,10 +50,10 @@ struct LitScene {
              const light::SunPoint& sun) const {
     const float cosine = point.normal.dot(sun.direction);
     if (!(cosine > 0)) return Rgb::Zero();
-    if (direct != transfer::Kind::Unshadowed &&
-        rays.occluded(point.position + rays.offset() * point.normal, sun.direction))
-      return Rgb::Zero();
-    return point.diffuse * sun.irradiance * (cosine / float(kPi));
+    const Rgb sent = point.diffuse * sun.irradiance * (cosine / float(kPi));
+    if (direct == transfer::Kind::Unshadowed) return sent;
+    return sent *
+           veils.throughput(rays, point.position + rays.offset() * point.normal, sun.direction);
   }
 
   /// `sun`: null without a sharp one.
@@ -81,6 +91,37 @@ struct LitScene {
       sum += sunlit(point, *direct, *sun);
     return sum;
   }
+
+  /// Nearest first, until nothing is seen through what was met. `sun`, `shafts`: null without.
+  SeenThrough seen(const scene::Ray& ray, const light::SunPoint* sun,
+                   const ShadowedAir* shafts) const {
+    SeenThrough out;
+    Rgb through = Rgb::Ones();
+    float tNear = 0.0f;
+    for (int passed = 0; passed < kMostSeenThrough; ++passed) {
+      const std::optional<trace::Hit> hit = rays.closest(ray.origin, ray.direction, tNear);
+      if (!hit) {
+        if (shafts && options.background)
+          out.radiance -= through * shafts->missing(ray, {}, sun->direction);
+        break;
+      }
+      const bool veil = veils.any() && veils.has(hit->mesh);
+      const Rgb share = veil ? Rgb(through * veils.coverage(*hit)) : through;
+      Rgb radiance = exitRadiance(*hit, -ray.direction, sun);
+      if (options.air) radiance = options.air->seen(ray.direction, hit->distance, radiance);
+      if (shafts) radiance -= shafts->missing(ray, hit->distance, sun->direction);
+      out.radiance += share * radiance;
+      if (!veil) {
+        through = Rgb::Zero();
+        break;
+      }
+      through *= veils.passed(*hit);
+      if (!(through.maxCoeff() > 1e-4f)) break;
+      tNear = trace::Veils::beyond(*hit);
+    }
+    out.coverage = 1.0f - through.mean();
+    return out;
+  }
 };
 
 }  // namespace
@@ -93,13 +134,9 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
   Result<trace::RayScene> rays = trace::RayScene::build(asset.scene);
   if (!rays) return rays.error();
 
-  LitScene lit{asset,
-               *rays,
-               environment,
-               options,
-               shade::sampleWidth(camera, options.height, options.samples),
-               {},
-               {}};
+  LitScene lit{asset,       *rays,   trace::Veils(asset.scene),
+               environment, options, shade::sampleWidth(camera, options.height, options.samples),
+               {},          {}};
   shade::RttPyramids pyramids(asset.transfer, options.showing.filter);
   for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m) {
     lit.meshes.push_back(shade::lightSurface(asset, m, light, options.showing, options.sun));
@@ -126,23 +163,17 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
     const int y = int(row.index);
     for (int x = 0; x < width; ++x) {
       Rgb sum = Rgb::Zero();
-      int covered = 0;
+      double covered = 0.0;
       for (std::size_t i = 0; i < positions.size(); ++i) {
         const Vec2& p = positions[i];
         const scene::Ray ray = scene::cameraRay(camera, width, height, x + p.x(), y + p.y());
-        const std::optional<trace::Hit> hit = rays->closest(ray.origin, ray.direction);
-        if (!hit) {
-          if (shafts && options.background) sum -= shafts->missing(ray, {}, sun[i].direction);
-          continue;
-        }
-        ++covered;
-        const Rgb radiance =
-            lit.exitRadiance(*hit, -ray.direction, sun.empty() ? nullptr : &sun[i]);
-        sum += options.air ? options.air->seen(ray.direction, hit->distance, radiance) : radiance;
-        if (shafts) sum -= shafts->missing(ray, hit->distance, sun[i].direction);
+        const SeenThrough seen =
+            lit.seen(ray, sun.empty() ? nullptr : &sun[i], shafts ? &*shafts : nullptr);
+        sum += seen.radiance;
+        covered += double(seen.coverage);
       }
       image.at(x, y) = share * sum;
-      image.alpha[std::size_t(y) * width + x] = float(covered) / float(positions.size());
+      image.alpha[std::size_t(y) * width + x] = float(covered / double(positions.size()));
     }
   });
   if (!whole) return whole.error();

@@ -43,6 +43,48 @@ TEST(TwoSides, ASheetIsSeenInItsAlbedoFromBothSides) {
   }
 }
 
+// A bake and the paths around the same veils, holes and panes converge to the same: what the ground
+// below half a veil gets, by both ways of finding light.
+TEST(Coverage, PathsComeThroughVeilsAndPanes) {
+  scene::Scene scene;
+  scene::Material ground, veil;
+  ground.diffuse = Rgb::Constant(0.5f);
+  veil.diffuse = Rgb::Constant(0.6f);
+  veil.alphaMode = scene::AlphaMode::Blend;
+  veil.opacity = 0.5f;
+  scene::addTo(scene, scene::gridPlane(0.01f, 0.01f, 1, 1), ground);
+  scene::addTo(scene,
+               scene::withBacks(scene::translated(scene::gridPlane(4, 4, 1, 1), Vec3(0, 1, 0))),
+               veil);
+  const double along = 2 / std::sqrt(5.0), factor = 4 / kPi * along * std::atan(along);
+  const auto groundUnder = [&](int bounces) {
+    const trace::RayScene rays = raysOf(scene);
+    std::vector<Probe> probes;
+    for (std::uint32_t v = 0; v < 4; ++v) {
+      const scene::SurfacePoint point = scene::surfaceAtVertex(scene, 0, v);
+      probes.push_back({point, point.normal});
+    }
+    const auto got = exitRadiance(scene, rays, light::Environment::uniform(Rgb::Ones()), probes,
+                                  {.samples = 4096, .bounces = bounces});
+    EXPECT_TRUE(got);
+    Estimate sum{Rgb::Zero(), Rgb::Zero()};
+    for (const Estimate& each : *got) sum.mean += each.mean / 4, sum.variance += each.variance / 16;
+    return sum;
+  };
+  const auto expect = [](const Estimate& got, const Rgb& right) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(got.mean[c], right[c], kLargestZ * std::sqrt(got.variance[c]) + 1e-4);
+  };
+  const auto hidden = float(0.5 * factor);
+  expect(groundUnder(0), Rgb::Constant(0.5f * (1 - hidden)));
+  // The underside sees the lower hemisphere, all sky.
+  expect(groundUnder(1), Rgb::Constant(0.5f * (1 - hidden + hidden * 0.6f)));
+  scene.materials[1].alphaMode = scene::AlphaMode::Opaque;
+  scene.materials[1].diffuse = Rgb::Zero();
+  scene.materials[1].transmitted = Rgb(0.9f, 0.5f, 0.1f);
+  expect(groundUnder(0), 0.5f * (1 - float(factor) * (1 - scene.materials[1].transmitted)));
+}
+
 // As an emitter of two sides: what a small square below a large sheet gets from it.
 TEST(TwoSides, BothSidesOfALampShine) {
   scene::Scene scene;

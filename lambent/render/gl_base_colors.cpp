@@ -58,6 +58,17 @@ void GlBaseColors::bindTable() const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, srgbTable_.name());
 }
 
+void GlBaseColors::bindCoverage(const Program& program, std::uint32_t mesh, int sample,
+                                bool gaps) const {
+  const scene::Passing passing = gaps ? passings_[mesh] : scene::Passing::Nothing;
+  const scene::Material& material = scene_->materials[std::size_t(scene_->meshes[mesh].material)];
+  const bool whole = passing == scene::Passing::Nothing;
+  program.set("alphaMode", whole ? 0 : int(material.alphaMode));
+  program.set("alphaRule", material.opacity, material.alphaCutoff);
+  program.set("kept", whole ? 1.0f : std::clamp(1.0f - material.transmitted.mean(), 0.0f, 1.0f));
+  program.set("veil", int(mesh), sample);
+}
+
 void GlBaseColors::bind(const Program& program, std::uint32_t mesh) const {
   const int texture = textureOf(mesh);
   program.set("hasTexture", int(texture >= 0));

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "lambent/reference/relit_picture.h"
 #include "lambent/render/batches.h"
 #include "lambent/render/gl_picture_in_blocks.h"
 #include "lambent/render/test_agreement.h"
-#include "lambent/reference/relit_picture.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/scene/sheets.h"
 #include "lambent/shade/test_assets.h"
@@ -54,10 +54,74 @@ TEST(GlPicture, EachSideOfASheetIsSeenFromWhereItFaces) {
   for (const Vec3& eye : {Vec3(1.5f, 1.8f, 5.0f), Vec3(-1.5f, -1.8f, -5.0f), Vec3(1, -4, 2)}) {
     const scene::Camera camera = cameraAt(eye, Vec3::Zero());
     expectAgreement("sheet", asset, camera, small(4));
-    const auto picture = reference::relitPicture(asset, light::Environment::uniform(Rgb::Ones()).project(5), {}, camera, small(1));
+    const auto picture = reference::relitPicture(
+        asset, light::Environment::uniform(Rgb::Ones()).project(5), {}, camera, small(1));
     ASSERT_TRUE(picture);
     for (std::size_t i = 0; i < picture->pixels.size(); ++i)
       if (picture->alpha[i] == 1.0f) EXPECT_GT(picture->pixels[i].minCoeff(), 0.7f) << eye;
+  }
+}
+
+/// A sphere before a floor whose texture has an alpha that waves, of this mode.
+asset::Asset withGaps(scene::AlphaMode mode) {
+  asset::Asset asset;
+  shade::test::addDiffuse(asset, shade::test::floor(Vec3(0, -0.5f, 0), 1.8f), {});
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3::Zero(), 1.2f, 16), {.texture = true});
+  scene::Texture& texture = asset.scene.textures.back();
+  for (std::size_t i = 0; i < texture.rgba.size() / 4; ++i)
+    texture.rgba[4 * i + 3] = std::uint8_t(128 + 127 * std::sin(0.9 * double(i)));
+  scene::Material& material = asset.scene.materials.back();
+  material.alphaMode = mode;
+  material.alphaCutoff = 0.4f;
+  material.opacity = 0.9f;
+  scene::Mesh& mesh = asset.scene.meshes.back();
+  mesh.colors.assign(mesh.positions.size(), Rgb::Ones());
+  for (const Vec3& p : mesh.positions) mesh.alphas.push_back(0.8f + 0.15f * p.x());
+  return asset;
+}
+
+TEST(GlPicture, Holes) {
+  const asset::Asset asset = withGaps(scene::AlphaMode::Mask);
+  // Where a hole ends to the bit is a matter of rounding.
+  expectAgreement("holes", asset, kCamera, small(4), {.mean = 0.1, .interior = 0.2});
+  PictureOptions whole = small(1);
+  const light::Environment sky = shade::test::sky();
+  const auto holed = reference::relitPicture(asset, sky.project(5), sky, kCamera, whole);
+  asset::Asset opaque = asset;
+  opaque.scene.materials.back().alphaMode = scene::AlphaMode::Opaque;
+  const auto unholed = reference::relitPicture(opaque, sky.project(5), sky, kCamera, whole);
+  ASSERT_TRUE(holed && unholed);
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < holed->pixels.size(); ++i)
+    changed += (holed->pixels[i] - unholed->pixels[i]).abs().maxCoeff() > 1e-3f;
+  EXPECT_GT(changed, holed->pixels.size() / 20);
+}
+
+// OpenGL draws a veil in a share of the sub-samples: in the mean it is what rays make of it, and
+// with many sub-samples in each pixel nearly so. Layers count by themselves: a ball has two.
+TEST(GlPicture, VeilsAreRightOnTheMean) {
+  asset::Asset pane;
+  shade::test::addDiffuse(pane, shade::test::floor(Vec3(0, -0.5f, 0), 1.8f), {});
+  shade::test::addDiffuse(pane, shade::test::sphere(Vec3::Zero(), 1.2f, 16), {});
+  pane.scene.materials.back().transmitted = Rgb::Constant(0.5f);
+  const light::Environment sky = shade::test::sky();
+  for (const asset::Asset& asset : {withGaps(scene::AlphaMode::Blend), pane}) {
+    const auto light = sky.project(5);
+    const auto rays = reference::relitPicture(asset, light, sky, kCamera, small(64));
+    const auto drawn = pictureInBlocks(asset, light, sky, kCamera, small(64), std::size_t(1) << 40);
+    ASSERT_TRUE(rays && drawn);
+    Rgb sum = Rgb::Zero(), whole = Rgb::Zero();
+    double squares = 0, coverage = 0, covered = 0;
+    for (std::size_t i = 0; i < rays->pixels.size(); ++i) {
+      sum += drawn->pixels[i] - rays->pixels[i];
+      whole += rays->pixels[i];
+      squares += double((drawn->pixels[i] - rays->pixels[i]).square().mean());
+      coverage += double(drawn->alpha[i]) - double(rays->alpha[i]);
+      covered += double(rays->alpha[i]);
+    }
+    EXPECT_LT((sum / whole).abs().maxCoeff(), 0.01f) << (sum / whole).transpose();
+    EXPECT_LT(std::abs(coverage / covered), 0.01) << coverage / covered;
+    EXPECT_LT(std::sqrt(squares / double(rays->pixels.size())), 0.05);
   }
 }
 

@@ -36,6 +36,7 @@ Result<GlScene> GlScene::make(const asset::Asset& asset, const GlSceneOptions& o
       {GL_FRAGMENT_SHADER,
        "unlit.frag.glsl",
        {"#define LAMBENT_MAP 1", std::string(shaderSource("base_color.glsl")),
+        std::string(shaderSource("coverage.glsl")),
         std::string(shaderSource("base_color_map.glsl")),
         std::string(shaderSource("unlit.frag.glsl"))}}};
   Result<Program> unlit = Program::make(stages);
@@ -151,8 +152,16 @@ Status GlScene::mapSun(const GlView& view) {
     sunMap_.emplace(std::move(*made));
   }
   glBindVertexArray(noAttributes_.name());
+  colors_.bindTable();
   sunMap_->draw(*view.sun, view, bounds_, [&] {
-    const auto drawPiece = [&](std::uint32_t, GLuint vertices, GLuint corners, int count) {
+    const auto drawPiece = [&](std::uint32_t mesh, GLuint vertices, GLuint corners, int count) {
+      const bool gaps = colors_.hasGaps(mesh) && !isPatched(mesh);
+      const Program& program = gaps ? sunMap_->gapsProgram() : sunMap_->wholeProgram();
+      program.use();
+      if (gaps) {
+        colors_.bind(program, mesh);
+        colors_.bindCoverage(program, mesh, view.sample);
+      }
       glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices);
       glVertexArrayElementBuffer(noAttributes_.name(), corners);
       glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
@@ -187,6 +196,7 @@ void GlScene::drawUnlit(const GlView& view) const {
     unlit_.set("reflectance", reflectance.x(), reflectance.y(), reflectance.z());
     unlit_.set("hasColor", int(!asset_->scene.meshes[mesh].colors.empty() && !isPatched(mesh)));
     colors_.bind(unlit_, mesh);
+    colors_.bindCoverage(unlit_, mesh, view.sample, !isPatched(mesh));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices);
     glVertexArrayElementBuffer(noAttributes_.name(), corners);
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);

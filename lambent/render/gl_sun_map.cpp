@@ -60,6 +60,17 @@ Result<GlSunMap> GlSunMap::make(int largestTexture) {
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();
   map.program_ = std::move(*program);
+  const Program::Stage gaps[] = {
+      {GL_VERTEX_SHADER, "unlit.vert.glsl", {std::string(shaderSource("unlit.vert.glsl"))}},
+      {GL_FRAGMENT_SHADER,
+       "sun_map_cut.frag.glsl",
+       {"#define LAMBENT_MAP 1", std::string(shaderSource("base_color.glsl")),
+        std::string(shaderSource("coverage.glsl")),
+        std::string(shaderSource("base_color_map.glsl")),
+        std::string(shaderSource("sun_map_cut.frag.glsl"))}}};
+  program = Program::make(gaps);
+  if (!program) return program.error();
+  map.gapsProgram_ = std::move(*program);
   return map;
 }
 
@@ -103,6 +114,7 @@ void GlSunMap::begin(const light::SunPoint& sun, const GlView& view, const scene
   const float far = 1.0f;
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &far);
   program_.setMatrix("clipFromWorld", clipFromWorld.data());
+  gapsProgram_.setMatrix("clipFromWorld", clipFromWorld.data());
   program_.use();
 }
 

@@ -18,7 +18,8 @@ class GlSunMap {
   static Result<GlSunMap> make(int largestTexture);
 
   /// Draws the map of what `view` sees of what stands in `bounds`, as the point of the Sun `sun` looks
-  /// at it. drawPieces() draws everything, with vertices as unlit.vert.glsl has them. Leaves another
+  /// at it. drawPieces() draws everything, with vertices as unlit.vert.glsl has them; what is there in
+  /// parts alone with gapsProgram(), whose coverage it binds, the rest with wholeProgram(). Leaves another
   /// framebuffer, viewport, depth test and program than before.
   template <class DrawPieces>
   void draw(const light::SunPoint& sun, const GlView& view, const scene::Box& bounds,
@@ -27,6 +28,8 @@ class GlSunMap {
     drawPieces();
     end();
   }
+  const Program& wholeProgram() const { return program_; }
+  const Program& gapsProgram() const { return gapsProgram_; }
   /// Gives a program that holds sun_shadow.glsl the map.
   void bind(const Program& program) const;
   /// … or air_texels.glsl with shafts of light.
@@ -38,7 +41,7 @@ class GlSunMap {
 
   Texture depth_;
   Framebuffer framebuffer_;
-  Program program_;
+  Program program_, gapsProgram_;
   int side_ = 0;
   Mat3 frameFromWorld_ = Mat3::Identity();
   Mat4 mapFromWorld_ = Mat4::Identity();

@@ -19,7 +19,7 @@ namespace {
 struct GpuVertex {
   float position[3], u;
   float normal[3], v;
-  float color[3], unused;
+  float color[3], alpha;
 };
 
 std::vector<GpuVertex> gatherVertices(const scene::Mesh& mesh, const TriangleBatch& batch) {
@@ -35,7 +35,7 @@ std::vector<GpuVertex> gatherVertices(const scene::Mesh& mesh, const TriangleBat
     }
     to.u = uv.x();
     to.v = uv.y();
-    to.unused = 0.0f;
+    to.alpha = mesh.alphas.empty() ? 1.0f : mesh.alphas[from];
   }
   return vertices;
 }
@@ -98,8 +98,9 @@ int GlSurfaces::lobeBandsOf(std::uint32_t mesh) const {
   return parts && parts->glossy ? parts->glossy->matrices.outBands : 0;
 }
 
-Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
-  if (programs_.contains({kind, lobeBands})) return Status::ok();
+Status GlSurfaces::addProgram(const Shape& shape) {
+  if (programs_.contains(shape)) return Status::ok();
+  const auto [kind, lobeBands, gaps] = shape;
   const int groups = lobeBands > 0 ? shade::rttStride(lobeBands) / 4 : 0;
   // Position, normal, colour, texture coordinates and exit radiance are interpolated as well.
   GLint mostVaryings = 0;
@@ -109,8 +110,8 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
   std::string defines = fmt::format(
       "#define LAMBENT_KIND {}\n#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n"
       "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_MAP 1\n#define LAMBENT_AIR {:d}\n"
-      "#define LAMBENT_EACH_GROUP(DO)",
-      int(kind), groups, interpolated, air_ != nullptr);
+      "#define LAMBENT_ALPHA {:d}\n#define LAMBENT_EACH_GROUP(DO)",
+      int(kind), groups, interpolated, air_ != nullptr, gaps);
   for (int i = 0; i < groups; ++i) defines += fmt::format(" DO({})", i);
   Program::Stage fragment{GL_FRAGMENT_SHADER, "surface.frag.glsl", {defines}};
   const auto include = [&](std::string_view name) {
@@ -123,8 +124,10 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
   if (kind == SurfaceKind::Mirror) fragment.parts.push_back(environmentSource());
   if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
   if (air_) fragment.parts.push_back(air_->source());
-  for (const char* name : {"base_color.glsl", "base_color_map.glsl", "shading_normal.glsl",
-                           "texel_receivers.glsl", "corner_weights.glsl", "surface.frag.glsl"})
+  include("base_color.glsl");
+  if (gaps) include("coverage.glsl");
+  for (const char* name : {"base_color_map.glsl", "shading_normal.glsl", "texel_receivers.glsl",
+                           "corner_weights.glsl", "surface.frag.glsl"})
     include(name);
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "surface.vert.glsl",
@@ -132,7 +135,7 @@ Status GlSurfaces::addProgram(SurfaceKind kind, int lobeBands) {
                                    std::move(fragment)};
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();
-  programs_.emplace(std::pair(kind, lobeBands), std::move(*program));
+  programs_.emplace(shape, std::move(*program));
   return Status::ok();
 }
 
@@ -141,10 +144,10 @@ Status GlSurfaces::setAir(std::shared_ptr<const GlAir> air) {
   const bool same = sourceOf(air_) == sourceOf(air);
   air_.swap(air);
   if (same) return Status::ok();
-  std::map<std::pair<SurfaceKind, int>, Program> before;
+  std::map<Shape, Program> before;
   before.swap(programs_);
-  for (const auto& [key, program] : before)
-    if (Status s = addProgram(key.first, key.second); !s) {
+  for (const auto& [shape, program] : before)
+    if (Status s = addProgram(shape); !s) {
       programs_.swap(before);
       air_.swap(air);
       return s;
@@ -194,7 +197,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
                            : vertices ? SurfaceKind::Vertices
                            : grid     ? SurfaceKind::Texels
                                       : SurfaceKind::Black;
-  if (Status s = addProgram(kind, lobeBands); !s) return s;
+  if (Status s = addProgram(shapeOf(index, kind)); !s) return s;
 
   std::shared_ptr<const Response> response;
   if (surface)
@@ -287,7 +290,7 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     const Response* parts = partsOf(draw.mesh);
     const bool diffuse = parts && parts->diffuse;
     const Geometry& geometry = geometries_[draw.geometry];
-    const Program& program = programs_.at({draw.kind, lobeBandsOf(draw.mesh)});
+    const Program& program = programs_.at(shapeOf(draw.mesh, draw.kind));
     program.use();
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
@@ -318,6 +321,7 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
     }
     if (air_) air_->bind(program, view, sunMap);
     colors.bind(program, draw.mesh);
+    colors.bindCoverage(program, draw.mesh, view.sample);
     if (draw.kind == SurfaceKind::Mirror) environment.bind(program, view.environmentFromWorld);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, geometry.corners.name());

@@ -27,7 +27,10 @@ class GlSurfaces {
   /// `asset` must outlive it, and fit together (asset::faultOf).
   /// `air`: between them and the eye; null for none.
   GlSurfaces(const asset::Asset& asset, std::size_t largestBlock, std::shared_ptr<const GlAir> air)
-      : asset_(&asset), largestBlock_(largestBlock), air_(std::move(air)) {}
+      : asset_(&asset),
+        passings_(scene::passingsOf(asset.scene)),
+        largestBlock_(largestBlock),
+        air_(std::move(air)) {}
 
   /// Uploads a mesh without meso-structure, lit as `showing` says.
   Status add(std::uint32_t mesh, const shade::Showing& showing, TransferOnGpu& transfer);
@@ -96,7 +99,6 @@ class GlSurfaces {
 
   Result<Lit> lightOf(std::uint32_t mesh, const shade::Showing& showing, const Response& response,
                       const std::vector<std::uint32_t>& receivers, TransferOnGpu& transfer) const;
-  Status addProgram(SurfaceKind kind, int lobeBands);
   Status addTexels(std::uint32_t mesh, const transfer::AtTexels& grid, const Response& response,
                    std::size_t perReceiver, const shade::Showing& showing, TransferOnGpu& transfer,
                    std::vector<std::pair<RowBand, std::size_t>>& litRows);
@@ -112,12 +114,24 @@ class GlSurfaces {
   int lobeBandsOf(std::uint32_t mesh) const;
 
   const asset::Asset* asset_;
+  std::vector<scene::Passing> passings_;
   std::size_t largestBlock_;  ///< bytes of one storage buffer
   std::shared_ptr<const GlAir> air_;
   std::vector<Geometry> geometries_;
   std::vector<Lit> lit_;
   std::vector<Draw> draws_;
-  std::map<std::pair<SurfaceKind, int>, Program> programs_;  ///< … and bands of the lobe, or 0
+  /// What a program is made for.
+  struct Shape {
+    SurfaceKind kind;
+    int lobeBands;  ///< or 0
+    bool gaps;      ///< it may be there in parts alone
+    auto operator<=>(const Shape&) const = default;
+  };
+  Status addProgram(const Shape& shape);
+  Shape shapeOf(std::uint32_t mesh, SurfaceKind kind) const {
+    return {kind, lobeBandsOf(mesh), passings_[mesh] != scene::Passing::Nothing};
+  }
+  std::map<Shape, Program> programs_;
   bool hasMirrors_ = false, sharpSun_ = false;
 };
 

@@ -21,6 +21,7 @@ struct GlView {
   std::optional<light::SunPoint> sun;  ///< whose shadows are sharp, if that is wished
   std::optional<sky::SamplingPlanes>
       shafts;               ///< of that Sun's light in the air, if they are wished
+  int sample = 0;           ///< the sub-sample's number
   bool unlit = false;       ///< base colours alone
   bool background = false;  ///< there will be one: shafts of light stand before it too
   bool mirrored = false;    ///< the camera's matrix turns right into left

@@ -268,6 +268,7 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
   seen.environmentFromWorld =
       view.worldFromEnvironment.transpose() * view.worldFromAsset.topLeftCorner<3, 3>();
   seen.unlit = view.unlit;
+  seen.sample = impl_->samples;
   seen.background = view.background;
   if (impl_->sun && impl_->air && impl_->air->shafts && !view.unlit)
     seen.shafts = impl_->air->planes(camera, impl_->bounds);

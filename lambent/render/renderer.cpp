@@ -27,11 +27,13 @@ struct Renderer::Impl {
   GlScene scene;
   GlEnvironment inMirrors;
 
-  /// One frame, seen through `place` of every pixel, under a point of the sharp Sun, if there is one.
-  Result<GlView> draw(const scene::Camera& camera, const Vec2& place, const light::SunPoint* sun) {
+  /// One frame, sub-sample number `sample`, seen through `place` of every pixel, under a point of the sharp Sun, if there is one.
+  Result<GlView> draw(const scene::Camera& camera, int sample, const Vec2& place,
+                      const light::SunPoint* sun) {
     GlView view =
         viewThrough(camera, options.width, options.height, bounds, place, options.samples);
     if (sun) view.sun = *sun;
+    view.sample = sample;
     view.background = options.background;
     if (options.air && options.air->shafts) view.shafts = options.air->planes(camera, bounds);
     if (Status s = scene.mapSun(view); !s) return s.error();
@@ -92,7 +94,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
 Status Renderer::drawFrame(const scene::Camera& camera) {
   if (Status s = shade::checkCamera(camera, impl_->options); !s) return s;
   const std::vector<light::SunPoint> sun = impl_->sunPoints(1);
-  const auto drawn = impl_->draw(camera, Vec2(0.5f, 0.5f), sun.empty() ? nullptr : &sun[0]);
+  const auto drawn = impl_->draw(camera, 0, Vec2(0.5f, 0.5f), sun.empty() ? nullptr : &sun[0]);
   if (!drawn) return drawn.error();
   glFinish();
   return checkGl("drawing");
@@ -104,7 +106,7 @@ Result<image::Image> Renderer::picture(const scene::Camera& camera, const Progre
   const std::vector<light::SunPoint> sun = impl_->sunPoints(impl_->options.samples);
   impl_->target.clearSum();
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto drawn = impl_->draw(camera, places[i], sun.empty() ? nullptr : &sun[i]);
+    const auto drawn = impl_->draw(camera, int(i), places[i], sun.empty() ? nullptr : &sun[i]);
     if (!drawn) return drawn.error();
     impl_->target.addToSum(*drawn, nullptr);
     if (Status s = checkGl("drawing"); !s) return s.error();

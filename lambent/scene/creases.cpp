@@ -144,6 +144,7 @@ std::size_t creaseNormals(Mesh& mesh, float angle) {
         appendCopy(mesh.positions, vertex);
         appendCopy(mesh.uvs, vertex);
         appendCopy(mesh.colors, vertex);
+        appendCopy(mesh.alphas, vertex);
         mesh.normals.push_back(Vec3::Zero());
       }
       vertex = entry->second;

@@ -66,12 +66,13 @@ Mesh merge(std::span<const Mesh> parts) {
   if (parts.empty()) return whole;
   whole.name = parts[0].name;
   whole.material = parts[0].material;
-  bool normals = true, uvs = true, colors = true;
+  bool normals = true, uvs = true, colors = true, alphas = true;
   for (const Mesh& part : parts) {
     if (part.positions.empty()) continue;
     normals = normals && !part.normals.empty();
     uvs = uvs && !part.uvs.empty();
     colors = colors && !part.colors.empty();
+    alphas = alphas && !part.alphas.empty();
   }
   for (const Mesh& part : parts) {
     const auto first = std::uint32_t(whole.positions.size());
@@ -82,6 +83,7 @@ Mesh merge(std::span<const Mesh> parts) {
     if (normals) append(whole.normals, part.normals);
     if (uvs) append(whole.uvs, part.uvs);
     if (colors) append(whole.colors, part.colors);
+    if (alphas) append(whole.alphas, part.alphas);
     for (const auto& [a, b, c] : part.triangles) {
       whole.triangles.push_back({a + first, b + first, c + first});
     }

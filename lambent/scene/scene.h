@@ -14,14 +14,22 @@
 
 namespace lambent::scene {
 
+/// What becomes of the alpha of a surface: of its texture, its vertices and its material multiplied.
+enum class AlphaMode {
+  Opaque,  ///< nothing
+  Mask,    ///< where it is below a threshold there is a hole
+  Blend,   ///< it is the share of the surface that is there; through the rest light goes on
+};
+
 /// How light leaves a surface. Reflectances are linear RGB in [0, 1]; the base colour (texture,
-/// vertex colour) multiplies all three.
+/// vertex colour) multiplies all four.
 ///  - diffuse: exit radiance ρ/π · irradiance.
 ///  - glossy:  exit radiance k · ∫ L(s) G(s, R) ds over the hemisphere of the normal, with R the
 ///             view direction mirrored about the normal and G the Phong-like lobe
 ///             (r+1)/2π · max(0, s·R)^r of unit integral (sloan2002precomputed §4.2).
 ///  - mirror:  a perfect reflection. A surface with any mirror reflectance is a mirror and nothing
 ///             else: it connects paths and records no transfer (sloan2002precomputed §5).
+///  - transmitted: goes on straight through, as through a thin pane, from either side.
 /// Besides, its front may emit light of its own, the same radiance everywhere and in all
 /// directions: the path tracer and captured light know of it, a bake leaves it out.
 struct Material {
@@ -29,8 +37,12 @@ struct Material {
   Rgb diffuse = Rgb::Constant(0.8f);
   Rgb glossy = Rgb::Zero();
   Rgb mirror = Rgb::Zero();
+  Rgb transmitted = Rgb::Zero();
   float lobeExponent = 16.0f;  ///< r of the lobe, ≥ 0
   Rgb emission = Rgb::Zero();  ///< radiance, W m⁻² sr⁻¹, ≥ 0; the base colour leaves it alone
+  AlphaMode alphaMode = AlphaMode::Opaque;
+  float alphaCutoff = 0.5f;   ///< ≥ 0, of Mask
+  float opacity = 1.0f;       ///< [0, 1], the material's part of alpha
   int baseColorTexture = -1;  ///< index into Scene::textures, or −1
   /// As the file says. Surfaces are lit and seen from their front alone: what has two sides has a
   /// back of triangles (scene/sheets.h), which loaders add where a surface that says so is open.
@@ -65,6 +77,7 @@ struct Mesh {
   std::vector<Vec3> normals;  ///< unit, one per position (loaders make them where a file has none)
   std::vector<Vec2> uvs;      ///< TEXCOORD_0 as glTF has it (v downwards), or empty
   std::vector<Rgb> colors;    ///< linear COLOR_0, or empty
+  std::vector<float> alphas;  ///< of COLOR_0, [0, 1], or empty: 1 everywhere
   std::vector<Triangle> triangles;
 };
 
@@ -103,6 +116,9 @@ Box bounds(const Scene& scene);
 
 /// Bilinear look-up in linear RGB; uv as glTF has it, (0, 0) the upper left corner.
 Rgb sampleBaseColor(const Texture& texture, const Vec2& uv);
+
+/// The alpha of a texture, [0, 1], looked up in the same way.
+float sampleAlpha(const Texture& texture, const Vec2& uv);
 
 /// A point of a surface with its material evaluated: what the path tracer and the bake both see.
 struct SurfacePoint {

@@ -20,6 +20,7 @@ Mesh withBacks(Mesh mesh) {
   appendAgain(mesh.normals);
   appendAgain(mesh.uvs);
   appendAgain(mesh.colors);
+  appendAgain(mesh.alphas);
   for (std::size_t v = vertices; v < mesh.normals.size(); ++v) mesh.normals[v] = -mesh.normals[v];
   mesh.triangles.reserve(2 * triangles);
   const auto back = std::uint32_t(vertices);

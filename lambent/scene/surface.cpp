@@ -111,6 +111,21 @@ Rgb sampleBaseColor(const Texture& texture, const Vec2& uv) {
   return (1.0f - ty.weight) * top + ty.weight * bottom;
 }
 
+float sampleAlpha(const Texture& texture, const Vec2& uv) {
+  const int w = texture.width, h = texture.height;
+  if (w <= 0 || h <= 0 || texture.rgba.size() < 4 * std::size_t(w) * std::size_t(h)) return 1.0f;
+  const Taps tx = filterTaps(uv.x(), w, texture.wrapU);
+  const Taps ty = filterTaps(uv.y(), h, texture.wrapV);
+  const auto texel = [&](int x, int y) {
+    return float(texture.rgba[4 * (std::size_t(y) * w + x) + 3]) / 255.0f;
+  };
+  const float top = (1.0f - tx.weight) * texel(tx.first, ty.first) +  //
+                    tx.weight * texel(tx.second, ty.first);
+  const float bottom =
+      (1.0f - tx.weight) * texel(tx.first, ty.second) + tx.weight * texel(tx.second, ty.second);
+  return (1.0f - ty.weight) * top + ty.weight * bottom;
+}
+
 SurfacePoint surfaceAt(const Scene& scene, std::uint32_t meshIndex, std::uint32_t triangle, float u,
                        float v) {
   assert(meshIndex < scene.meshes.size());

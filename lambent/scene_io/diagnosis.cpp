@@ -51,6 +51,7 @@ std::vector<std::uint32_t> dropUnused(Mesh& mesh) {
   compact(mesh.normals, oldFromNew);
   compact(mesh.uvs, oldFromNew);
   compact(mesh.colors, oldFromNew);
+  compact(mesh.alphas, oldFromNew);
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& v : t) v = newFromOld[v];
   }
@@ -205,6 +206,7 @@ void finishAttributes(Mesh& mesh, const std::string& place, Diagnosis& diagnosis
     if (!finite || color.minCoeff() < 0.0f || color.maxCoeff() > 1.0f) ++badColors;
     color = finite ? Rgb(color.max(0.0f).min(1.0f)) : Rgb(Rgb::Ones());
   }
+  for (float& alpha : mesh.alphas) alpha = alpha < 1.0f ? std::max(alpha, 0.0f) : 1.0f;
   if (badUvs > 0) {
     diagnosis.add(Severity::Warning, "uvs-not-finite", badUvs,
                   "texture coordinates were not finite and are (0, 0) now", place);

@@ -41,6 +41,7 @@ constexpr Extension kExtensions[] = {
     {"KHR_materials_ior", Without::Same, ""},
     {"KHR_materials_pbrSpecularGlossiness", Without::Same, ""},
     {"KHR_materials_specular", Without::Same, ""},
+    {"KHR_materials_transmission", Without::Same, ""},
     {"KHR_materials_unlit", Without::Same, ""},
     {"KHR_mesh_quantization", Without::Same, ""},
     {"KHR_meshopt_compression", Without::Same, ""},
@@ -48,9 +49,6 @@ constexpr Extension kExtensions[] = {
     {"KHR_texture_transform", Without::Same, ""},
     {"LAMBENT_*", Without::Same, ""},
 
-    {"KHR_materials_transmission", Without::Other,
-     "glass is taken as opaque: it keeps light out of what stands behind it",
-     "delete panes before the bake"},
     {"KHR_materials_diffuse_transmission", Without::Other,
      "leaves and cloth let no light through to their back"},
     {"KHR_materials_volume*", Without::Other,

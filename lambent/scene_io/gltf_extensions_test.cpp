@@ -48,26 +48,30 @@ class GltfExtensions : public testing::Test {
 };
 
 TEST_F(GltfExtensions, EachThatIsNotReadIsOneFindingThatNamesIt) {
-  document_.j["extensionsUsed"] = {
-      "KHR_materials_transmission", "KHR_texture_transform", "ACME_flavour",
-      "KHR_lights_punctual",        "KHR_materials_sheen",   "EXT_nobody_uses"};
+  document_.j["extensionsUsed"] = {"KHR_materials_diffuse_transmission",
+                                   "KHR_texture_transform",
+                                   "ACME_flavour",
+                                   "KHR_lights_punctual",
+                                   "KHR_materials_sheen",
+                                   "EXT_nobody_uses"};
   document_.j["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
   document_.j["nodes"][0]["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
   document_.j["meshes"][0]["extensions"]["ACME_flavour"] = {{"salt", 1}};
   document_.j["extras"]["extensions"]["ACME_in_extras"] = 1;
-  const LoadedScene loaded = with(R"({"extensions": {"KHR_materials_transmission":
-      {"transmissionFactor": 1}, "KHR_materials_sheen": {}, "KHR_materials_ior": {"ior": 1.5}}})");
+  const LoadedScene loaded = with(R"({"extensions": {"KHR_materials_diffuse_transmission":
+      {"diffuseTransmissionFactor": 1}, "KHR_materials_sheen": {}, "KHR_materials_ior": {"ior": 1.5}}})");
   struct Expected {
     const char* name;
     Severity severity;
     std::uint64_t count;
     const char* says;
   };
-  for (const Expected& e : {Expected{"KHR_materials_transmission", Severity::Warning, 1, "opaque"},
-                            Expected{"KHR_lights_punctual", Severity::Warning, 2, "--light"},
-                            Expected{"KHR_materials_sheen", Severity::Warning, 1, "sheen"},
-                            Expected{"ACME_flavour", Severity::Warning, 1, "not known"},
-                            Expected{"EXT_nobody_uses", Severity::Note, 0, "nothing uses it"}}) {
+  for (const Expected& e :
+       {Expected{"KHR_materials_diffuse_transmission", Severity::Warning, 1, "leaves"},
+        Expected{"KHR_lights_punctual", Severity::Warning, 2, "--light"},
+        Expected{"KHR_materials_sheen", Severity::Warning, 1, "sheen"},
+        Expected{"ACME_flavour", Severity::Warning, 1, "not known"},
+        Expected{"EXT_nobody_uses", Severity::Note, 0, "nothing uses it"}}) {
     const Finding* finding = findingOf(loaded.findings, "extension-" + std::string(e.name));
     ASSERT_NE(finding, nullptr) << e.name;
     EXPECT_EQ(finding->severity, e.severity) << e.name;
@@ -80,6 +84,17 @@ TEST_F(GltfExtensions, EachThatIsNotReadIsOneFindingThatNamesIt) {
     EXPECT_EQ(finding.message.find("KHR_texture_transform"), std::string::npos);
     EXPECT_EQ(finding.message.find("KHR_materials_ior"), std::string::npos);
   }
+}
+
+TEST_F(GltfExtensions, APanePassesItsShareOfWhatIsNoMetal) {
+  const LoadedScene loaded = with(R"({"extensions": {"KHR_materials_transmission":
+      {"transmissionFactor": 0.75}}, "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.4, 0.2, 1],
+      "metallicFactor": 0.5}})");
+  const scene::Material& m = loaded.scene.materials[0];
+  EXPECT_TRUE(m.transmitted.isApprox(Rgb(0.3f, 0.15f, 0.075f)));
+  EXPECT_TRUE(m.diffuse.isApprox(Rgb(0.1f, 0.05f, 0.025f)));
+  EXPECT_TRUE(m.glossy.isApprox(Rgb(0.4f, 0.2f, 0.1f)));
+  EXPECT_EQ(findingOf(loaded.findings, "extension-KHR_materials_transmission"), nullptr);
 }
 
 TEST_F(GltfExtensions, InventedNamesWithoutEndAreFewFindings) {

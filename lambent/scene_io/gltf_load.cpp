@@ -162,10 +162,15 @@ Result<Mesh> Loader::readPrimitive(const json& node, const json& meshJson, const
   if (!mesh) return mesh;
   mesh->material = material;
   if (mesh->positions.empty()) return mesh;
+  const auto isWhole = [](float alpha) { return alpha >= 1.0f; };
+  if (result_.loaded.scene.materials[std::size_t(material)].alphaMode == scene::AlphaMode::Opaque ||
+      std::all_of(mesh->alphas.begin(), mesh->alphas.end(), isWhole))
+    mesh->alphas.clear();
   // Bytes that nothing says are normalized, and floats of a program that counts to 255.
   if (const float white = whiteOf(mesh->colors); white > 1.0f) {
     noteWhite(white, diagnosis_);
     for (Rgb& color : mesh->colors) color = linearColor(color, white);
+    for (float& alpha : mesh->alphas) alpha /= white;
   }
   if (Status status =
           morph(file_, primitive, morphWeights(node, meshJson), place, *mesh, diagnosis_);

@@ -39,7 +39,7 @@ MetallicRoughness metallicRoughnessOf(const scene::Material& material) {
     pbr.roughness = 0.0;
     return pbr;
   }
-  const Rgb sum = material.diffuse + material.glossy;
+  const Rgb sum = material.diffuse + material.glossy + material.transmitted;
   pbr.baseColor = sum.max(0.0f).min(1.0f);
   pbr.metallic = material.isGlossy() ? double(material.glossy.sum()) / double(sum.sum()) : 0.0;
   pbr.roughness = material.isGlossy() ? roughnessFromLobeExponent(material.lobeExponent) : 1.0;
@@ -58,6 +58,7 @@ bool applyExtras(const nlohmann::json& materialJson, const MetallicRoughness& pb
   exact.glossy = glossy->max(0.0f).min(1.0f);
   exact.mirror = mirror->max(0.0f).min(1.0f);
   exact.lobeExponent = float(exponent);
+  exact.transmitted = rgb(lambent, "transmitted").value_or(Rgb::Zero()).max(0.0f).min(1.0f);
   const MetallicRoughness written = metallicRoughnessOf(exact);
   const bool agree = (written.baseColor - pbr.baseColor).abs().maxCoeff() < 1e-4f &&
                      std::abs(written.metallic - pbr.metallic) < 1e-4 &&
@@ -66,13 +67,25 @@ bool applyExtras(const nlohmann::json& materialJson, const MetallicRoughness& pb
   return agree;
 }
 
+double transmissionOf(const scene::Material& material) {
+  const double passed = double(material.transmitted.sum());
+  return passed > 0.0 ? passed / (passed + double(material.diffuse.sum())) : 0.0;
+}
+
+void applyTransmission(double share, scene::Material& material) {
+  const auto passed = float(std::clamp(share, 0.0, 1.0));
+  material.transmitted = material.diffuse * passed;
+  material.diffuse *= 1.0f - passed;
+}
+
 nlohmann::json extrasOf(const scene::Material& material) {
   const auto array = [](const Rgb& c) { return nlohmann::json::array({c.x(), c.y(), c.z()}); };
-  return {{"lambent",
-           {{"diffuse", array(material.diffuse)},
-            {"glossy", array(material.glossy)},
-            {"mirror", array(material.mirror)},
-            {"lobeExponent", material.lobeExponent}}}};
+  nlohmann::json exact = {{"diffuse", array(material.diffuse)},
+                          {"glossy", array(material.glossy)},
+                          {"mirror", array(material.mirror)},
+                          {"lobeExponent", material.lobeExponent}};
+  if (material.transmitted.maxCoeff() > 0.0f) exact["transmitted"] = array(material.transmitted);
+  return {{"lambent", std::move(exact)}};
 }
 
 }  // namespace lambent::scene_io

@@ -29,6 +29,11 @@ double roughnessFromLobeExponent(double exponent);
 void applyMetallicRoughness(const MetallicRoughness& pbr, scene::Material& material);
 MetallicRoughness metallicRoughnessOf(const scene::Material& material);
 
+/// KHR_materials_transmission: of what is diffuse, that share goes on straight through in the base
+/// colour; the factor that a material is written with.
+void applyTransmission(double share, scene::Material& material);
+double transmissionOf(const scene::Material& material);
+
 /// material.extras.lambent, if it is there and still agrees with `pbr`. True if it was used.
 bool applyExtras(const nlohmann::json& materialJson, const MetallicRoughness& pbr,
                  scene::Material& material);

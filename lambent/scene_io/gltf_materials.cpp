@@ -112,12 +112,21 @@ Status GltfMaterials::readMaterial(const json& object, int index) {
   const Result<Rgb> emission = readEmission(object, place);
   if (!emission) return emission.error();
   material.emission = *emission;
-  if (const std::string mode = text(&object, "alphaMode"); mode == "BLEND" || mode == "MASK") {
-    diagnosis_.lose(Severity::Warning, "alpha-ignored", 1,
-                    "materials are (partly) transparent and are taken as opaque", place);
-  }
+  readAlpha(object, material);
   scene_.materials.push_back(std::move(material));
   return Status::ok();
+}
+
+void GltfMaterials::readAlpha(const json& object, scene::Material& material) {
+  const std::string mode = text(&object, "alphaMode");
+  if (mode != "BLEND" && mode != "MASK") return;
+  material.alphaMode = mode == "MASK" ? scene::AlphaMode::Mask : scene::AlphaMode::Blend;
+  material.alphaCutoff = float(std::clamp(number(&object, "alphaCutoff", 0.5), 0.0, 1e9));
+  const json* older = find(find(object, "extensions"), "KHR_materials_pbrSpecularGlossiness");
+  const auto factor = older != nullptr
+                          ? numbers(older, "diffuseFactor", 4)
+                          : numbers(find(object, "pbrMetallicRoughness"), "baseColorFactor", 4);
+  if (factor) material.opacity = float(std::clamp((*factor)[3], 0.0, 1.0));
 }
 
 Result<GltfPicture*> GltfMaterials::pictureOf(const json* info) {
@@ -152,8 +161,25 @@ Status GltfMaterials::readMetallicRoughness(const json& object, const std::strin
   }
   if (applyExtras(object, values, material)) return Status::ok();
   applyMetallicRoughness(values, material);
+  if (Status status = readTransmission(object, place, material); !status) return status;
   return addSpecular(object, 1.0 - std::clamp(values.metallic, 0.0, 1.0), values.roughness, place,
                      material);
+}
+
+/// Of a rough surface too: straight, for want of a lobe that goes through.
+Status GltfMaterials::readTransmission(const json& object, const std::string& place,
+                                       scene::Material& material) {
+  const json* transmission = find(find(object, "extensions"), "KHR_materials_transmission");
+  double share = number(transmission, "transmissionFactor", 0.0);
+  const Result<GltfPicture*> picture = pictureOf(find(transmission, "transmissionTexture"));
+  if (!picture) return picture.error();
+  if (*picture != nullptr && share > 0.0) {
+    share *= (*picture)->meanChannels[0];
+    diagnosis_.lose(Severity::Note, "mean-transmission", 1,
+                    "textures of transmission were replaced by their mean", place);
+  }
+  applyTransmission(share, material);
+  return Status::ok();
 }
 
 Status GltfMaterials::addSpecular(const json& object, double share, double roughness,

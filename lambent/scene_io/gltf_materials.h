@@ -36,6 +36,8 @@ class GltfMaterials {
 
  private:
   Status readMaterial(const nlohmann::json& object, int index);
+  Status readTransmission(const nlohmann::json& object, const std::string& place,
+                          scene::Material& material);
   Status readMetallicRoughness(const nlohmann::json& object, const std::string& place,
                                scene::Material& material);
   /// `info`: the base-colour texture, or null where it is of no use.
@@ -45,6 +47,7 @@ class GltfMaterials {
                      const std::string& place, scene::Material& material);
   /// The picture that `info` of a texture names, or null where it names none.
   Result<GltfPicture*> pictureOf(const nlohmann::json* info);
+  static void readAlpha(const nlohmann::json& object, scene::Material& material);
   Result<Rgb> readEmission(const nlohmann::json& object, const std::string& place);
   /// The scene's texture for a glTF texture, or −1 and a Warning.
   Result<int> readTexture(std::int64_t texture);

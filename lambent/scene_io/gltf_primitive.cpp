@@ -113,6 +113,7 @@ Status GltfPrimitive::readColors(Mesh& mesh) const {
   mesh.colors.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     mesh.colors[i] = Rgb(Eigen::Map<const Eigen::Array3f>(colors->data() + width * i));
+    if (hasAlpha) mesh.alphas.push_back((*colors)[4 * i + 3]);
   }
   return Status::ok();
 }

@@ -90,7 +90,7 @@ struct GltfLoadOptions {
   bool keepAllVertices = false;
   /// Radians: normals that the file does not give are smooth across edges flatter than this.
   float crease = 0.0f;
-  bool layout = false;  ///< as of LoadOptions
+  bool layout = false;              ///< as of LoadOptions
   Sides sides = Sides::AsFileSays;  ///< as of LoadOptions; with keepAllVertices none are given
 };
 Result<LoadedGltf> loadGltf(const GltfFile& file, const GltfLoadOptions& options = {});

@@ -37,6 +37,9 @@ scene::Scene richScene() {
   mixed.baseColorTexture = 0;
   mixed.doubleSided = true;
   mixed.emission = Rgb(0.75f, 0.5f, 0.125f);
+  mixed.alphaMode = scene::AlphaMode::Mask;
+  mixed.alphaCutoff = 0.25f;
+  mixed.opacity = 0.9f;
   scene::addTo(s, scene::uvSphere(1.0f, 12, 8), mixed);
   scene::Material mirror;
   mirror.diffuse = Rgb::Zero();
@@ -44,7 +47,11 @@ scene::Scene richScene() {
   scene::addTo(s, scene::ring(1.0f, 1.1f, 0.3f, 24), mirror);
   scene::Mesh colored = scene::icosphere(0.5f, 2);
   for (const Vec3& p : colored.positions) colored.colors.push_back(p.array().abs());
-  scene::addTo(s, colored, scene::Material());
+  for (const Vec3& p : colored.positions) colored.alphas.push_back(0.5f + 0.5f * p.x());
+  scene::Material veil;
+  veil.alphaMode = scene::AlphaMode::Blend;
+  veil.opacity = 0.75f;
+  scene::addTo(s, colored, veil);
   scene::Camera camera = scene::frameAutomatically(s, 1.5f);
   camera.name = "main";
   s.cameras = {camera};
@@ -71,6 +78,7 @@ TEST(Gltf, WhatIsWrittenIsReadToTheBit) {
     EXPECT_EQ(t.meshes[i].normals, s.meshes[i].normals);
     EXPECT_EQ(t.meshes[i].uvs, s.meshes[i].uvs);
     EXPECT_EQ(t.meshes[i].triangles, s.meshes[i].triangles);
+    EXPECT_EQ(t.meshes[i].alphas, s.meshes[i].alphas);
     ASSERT_EQ(t.meshes[i].colors.size(), s.meshes[i].colors.size());
     for (std::size_t v = 0; v < s.meshes[i].colors.size(); ++v) {
       EXPECT_TRUE((t.meshes[i].colors[v] == s.meshes[i].colors[v]).all());
@@ -86,6 +94,9 @@ TEST(Gltf, WhatIsWrittenIsReadToTheBit) {
     EXPECT_TRUE((t.materials[i].emission == s.materials[i].emission).all());
     EXPECT_EQ(t.materials[i].baseColorTexture, s.materials[i].baseColorTexture);
     EXPECT_EQ(t.materials[i].doubleSided, s.materials[i].doubleSided);
+    EXPECT_EQ(t.materials[i].alphaMode, s.materials[i].alphaMode);
+    EXPECT_EQ(t.materials[i].alphaCutoff, s.materials[i].alphaCutoff);
+    EXPECT_EQ(t.materials[i].opacity, s.materials[i].opacity);
   }
   ASSERT_EQ(t.textures.size(), 1u);
   EXPECT_EQ(t.textures[0].rgba, s.textures[0].rgba);
@@ -104,6 +115,24 @@ TEST(Gltf, WhatIsWrittenIsReadToTheBit) {
   ASSERT_TRUE(saveGlb(t, folder / "again.glb"));
   EXPECT_EQ(load(folder / "again.glb")->scene.textures[0].encoded, t.textures[0].encoded);
   EXPECT_EQ(contentOf(folder / "again.glb"), contentOf(folder / "rich.glb"));
+}
+
+TEST(Gltf, APaneIsWrittenAsTransmission) {
+  const TemporaryFolder folder;
+  scene::Material pane;
+  pane.diffuse = Rgb(0.1f, 0.05f, 0.2f);
+  pane.transmitted = Rgb(0.3f, 0.15f, 0.6f);
+  ASSERT_TRUE(saveGlb(scene::sceneOf(scene::icosphere(1, 1), pane), folder / "pane.glb"));
+  const auto file = GltfFile::open(folder / "pane.glb");
+  ASSERT_TRUE(file);
+  const auto& material = file->json()["materials"][0];
+  EXPECT_NEAR(double(material["extensions"]["KHR_materials_transmission"]["transmissionFactor"]),
+              0.75, 1e-6);
+  EXPECT_NEAR(double(material["pbrMetallicRoughness"]["baseColorFactor"][2]), 0.8, 1e-6);
+  const auto read = load(folder / "pane.glb");
+  ASSERT_TRUE(read);
+  EXPECT_TRUE((read->scene.materials[0].transmitted == pane.transmitted).all());
+  EXPECT_TRUE((read->scene.materials[0].diffuse == pane.diffuse).all());
 }
 
 TEST(Gltf, EditedMetallicRoughnessWinsOverExtras) {

@@ -1,6 +1,7 @@
 #include "lambent/scene_io/gltf_write.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,16 @@ int append(Json& document, const char* key, Json value) {
   return int(array.size() - 1);
 }
 
+std::vector<std::array<float, 4>> withAlphas(const scene::Mesh& mesh) {
+  std::vector<std::array<float, 4>> colors(mesh.alphas.size(), {1.0f, 1.0f, 1.0f, 1.0f});
+  for (std::size_t v = 0; v < colors.size(); ++v) {
+    for (int c = 0; c < 3 && !mesh.colors.empty(); ++c)
+      colors[v][std::size_t(c)] = mesh.colors[v][c];
+    colors[v][3] = mesh.alphas[v];
+  }
+  return colors;
+}
+
 void setName(Json& object, const std::string& name) {
   if (!name.empty()) object["name"] = name;
 }
@@ -60,8 +71,10 @@ struct GltfBuilder::Impl {
 
 void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
   const MetallicRoughness pbr = metallicRoughnessOf(material);
+  const bool opaque = material.alphaMode == scene::AlphaMode::Opaque;
+  const double opacity = opaque ? 1.0 : double(material.opacity);
   Json metallicRoughness = {
-      {"baseColorFactor", {pbr.baseColor.x(), pbr.baseColor.y(), pbr.baseColor.z(), 1.0}},
+      {"baseColorFactor", {pbr.baseColor.x(), pbr.baseColor.y(), pbr.baseColor.z(), opacity}},
       {"metallicFactor", pbr.metallic},
       {"roughnessFactor", pbr.roughness}};
   if (material.baseColorTexture >= 0) {
@@ -70,6 +83,16 @@ void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
   Json object = {{"pbrMetallicRoughness", std::move(metallicRoughness)},
                  {"extras", extrasOf(material)}};
   if (material.doubleSided) object["doubleSided"] = true;
+  if (!opaque) {
+    const bool mask = material.alphaMode == scene::AlphaMode::Mask;
+    object["alphaMode"] = mask ? "MASK" : "BLEND";
+    if (mask) object["alphaCutoff"] = material.alphaCutoff;
+  }
+  if (const double share = transmissionOf(material); share > 0.0) {
+    file::objectAt(object,
+                   "extensions")["KHR_materials_transmission"] = {{"transmissionFactor", share}};
+    use("extensionsUsed", "KHR_materials_transmission");
+  }
   if (material.isEmitter()) {
     // A factor is at most 1; what is brighter goes into the strength.
     const float strength = std::max(material.emission.maxCoeff(), 1.0f);
@@ -152,7 +175,10 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     };
     attribute("NORMAL", asBytes(mesh.normals), "VEC3");
     attribute("TEXCOORD_0", asBytes(mesh.uvs), "VEC2");
-    attribute("COLOR_0", asBytes(mesh.colors), "VEC3");
+    if (mesh.alphas.empty())
+      attribute("COLOR_0", asBytes(mesh.colors), "VEC3");
+    else
+      attribute("COLOR_0", asBytes(withAlphas(mesh)), "VEC4");
 
     int indices = 0;
     const std::size_t indexCount = 3 * mesh.triangles.size();

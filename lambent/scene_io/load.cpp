@@ -16,10 +16,9 @@ Result<LoadedScene> loadByExtension(const std::filesystem::path& path, const Loa
   if (extension == ".glb" || extension == ".gltf") {
     const Result<GltfFile> file = GltfFile::open(path, options);
     if (!file) return file.error();
-    Result<LoadedGltf> loaded =
-        loadGltf(*file, {.crease = options.crease.value_or(0.0f),
-                         .layout = options.layout,
-                         .sides = options.sides});
+    Result<LoadedGltf> loaded = loadGltf(*file, {.crease = options.crease.value_or(0.0f),
+                                                 .layout = options.layout,
+                                                 .sides = options.sides});
     if (!loaded) return loaded.error();
     return std::move(loaded->loaded);
   }

@@ -59,16 +59,20 @@ scene::Material materialOf(const MtlEntry& entry, bool hasMap, Diagnosis& diagno
   return material;
 }
 
-bool isTransparent(const MtlEntry& entry) {
+double opacityOf(const MtlEntry& entry) {
   const double opacity = entry.opacity.value_or(1.0 - entry.transparency.value_or(0.0));
+  return std::clamp(opacity, 0.0, 1.0);
+}
+
+/// Transparent in a way that is not read: by ray-traced glass, or a map of transparency.
+bool isTransparentOtherwise(const MtlEntry& entry) {
   const int illumination = entry.illumination;
-  const bool mask =
-      std::any_of(entry.otherMaps.begin(), entry.otherMaps.end(), [](const auto& map) {
-        return map.first == "map_d" || map.first == "map_D" || map.first == "map_opacity" ||
-               map.first == "map_Tr";
-      });
-  return opacity < 0.999 || mask || illumination == 4 || illumination == 6 || illumination == 7 ||
-         illumination == 9;
+  const bool map = std::any_of(entry.otherMaps.begin(), entry.otherMaps.end(),
+                               [](const auto& other) { return other.first == "map_Tr"; });
+  const bool said = opacityOf(entry) < 1.0 || !entry.opacityMap.name.empty();
+  const bool glass =
+      illumination == 4 || illumination == 6 || illumination == 7 || illumination == 9;
+  return map || (glass && !said);
 }
 
 bool isRelief(std::string_view key) {
@@ -131,9 +135,10 @@ void MtlReader::tellUnread(const MtlEntry& entry) {
     diagnosis_.lose(severity, code, 1, what,
                     detail.empty() ? entry.name : entry.name + ": " + detail);
   };
-  if (isTransparent(entry)) {
+  if (isTransparentOtherwise(entry)) {
     lose(Severity::Warning, "alpha-ignored",
-         "materials are (partly) transparent and are taken as opaque");
+         "materials are transparent by illum 4, 6, 7, 9 or map_Tr alone and are taken as opaque: "
+         "say so by d or map_d");
   }
   for (const Rgb& color :
        {entry.diffuse.value_or(Rgb::Zero()), entry.specular.value_or(Rgb::Zero())}) {
@@ -144,11 +149,19 @@ void MtlReader::tellUnread(const MtlEntry& entry) {
       break;
     }
   }
-  if (!entry.diffuseMap.ignored.empty()) {
+  for (const MtlMap* map : {&entry.diffuseMap, &entry.opacityMap}) {
+    if (map->ignored.empty()) continue;
     lose(Severity::Warning, "texture-option-ignored",
          "textures have options that are not read and change their colours or place; bake them "
          "into the picture",
-         entry.diffuseMap.ignored);
+         map->ignored);
+  }
+  const UvTransform &color = entry.diffuseMap.uv, &alpha = entry.opacityMap.uv;
+  if (!entry.diffuseMap.name.empty() && !entry.opacityMap.name.empty() &&
+      (color.scale != alpha.scale || color.offset != alpha.offset)) {
+    lose(Severity::Warning, "alpha-placed-otherwise",
+         "map_d has other -s or -o than map_Kd and lies where that does; bake both into one "
+         "picture");
   }
   for (const auto& [key, name] : entry.otherMaps) {
     files_.note(finder_.find(folder_, name, sceneFolder_).path);  // of no use here, but theirs
@@ -157,7 +170,7 @@ void MtlReader::tellUnread(const MtlEntry& entry) {
            "maps of relief (bump, normals, displacement) were left out: surfaces are as smooth as "
            "their meshes; `lambent rtt` bakes relief",
            key);
-    } else if (key != "map_d" && key != "map_Ka") {
+    } else if (key != "map_Ka") {
       lose(Severity::Note, "map-ignored",
            "maps other than the base colour were left out: their factors hold everywhere", key);
     }
@@ -174,17 +187,59 @@ void MtlReader::tellUnread(const MtlEntry& entry) {
   }
 }
 
+/// The texture of an entry: its colour, with the alpha of another picture if it has one.
+Result<int> MtlReader::textureOf(const MtlEntry& entry) {
+  Result<int> color = texture(entry.diffuseMap);
+  if (!color || entry.opacityMap.name.empty()) return color;
+  const Result<int> alpha = texture(entry.opacityMap);
+  if (!alpha) return alpha.error();
+  if (*alpha < 0) return color;
+  const auto [known, isNew] = combined_.try_emplace({*color, *alpha}, -1);
+  if (!isNew) return known->second;
+  Result<scene::Texture> both = withAlphaOf(
+      *color < 0 ? nullptr : &scene_.textures[std::size_t(*color)],
+      scene_.textures[std::size_t(*alpha)], "map_d of material " + entry.name, files_.budget());
+  if (!both) return both.error();
+  known->second = int(scene_.textures.size());
+  scene_.textures.push_back(std::move(*both));
+  return known->second;
+}
+
+void MtlReader::dropParts() {
+  if (combined_.empty()) return;
+  std::vector<int> newFromOld(scene_.textures.size(), -1);
+  for (const scene::Material& material : scene_.materials) {
+    if (material.baseColorTexture >= 0) newFromOld[std::size_t(material.baseColorTexture)] = 0;
+  }
+  std::vector<scene::Texture> kept;
+  for (std::size_t t = 0; t < newFromOld.size(); ++t) {
+    if (newFromOld[t] < 0) continue;
+    newFromOld[t] = int(kept.size());
+    kept.push_back(std::move(scene_.textures[t]));
+  }
+  scene_.textures = std::move(kept);
+  for (scene::Material& material : scene_.materials) {
+    if (material.baseColorTexture >= 0)
+      material.baseColorTexture = newFromOld[std::size_t(material.baseColorTexture)];
+  }
+}
+
 Status MtlReader::add(const MtlEntry& entry) {
-  const Result<int> picture = texture(entry.diffuseMap);
+  const Result<int> picture = textureOf(entry);
   if (!picture) return picture.error();
   tellUnread(entry);
   const int index = int(scene_.materials.size());
   if (!materials_.try_emplace(entry.name, index).second) return Status::ok();
   materials_.try_emplace(std::string(withoutComment(entry.name)), index);
-  scene::Material material = materialOf(entry, *picture >= 0, diagnosis_);
+  scene::Material material =
+      materialOf(entry, !entry.diffuseMap.name.empty() && *picture >= 0, diagnosis_);
   material.baseColorTexture = *picture;
+  material.opacity = float(opacityOf(entry));
+  if (material.opacity < 1.0f || !entry.opacityMap.name.empty())
+    material.alphaMode = scene::AlphaMode::Blend;
   scene_.materials.push_back(std::move(material));
-  if (*picture >= 0 && !entry.diffuseMap.uv.isIdentity()) uvs_[index] = entry.diffuseMap.uv;
+  const UvTransform& uv = entry.diffuseMap.name.empty() ? entry.opacityMap.uv : entry.diffuseMap.uv;
+  if (*picture >= 0 && !uv.isIdentity()) uvs_[index] = uv;
   return Status::ok();
 }
 

@@ -27,8 +27,8 @@ struct MtlEntry;
 ///  - otherwise Ks is glossy with lobe exponent Ns (1 … 10⁴), except for Ks = 0.5 0.5 0.5, which
 ///    Blender writes for every material ("specular 0.5", which means 4% there): diffuse alone.
 ///  - Kd + Ks above 1 is scaled down to 1.
-/// What else changes how a material looks is a finding: transparency (d, Tr, map_d, illum of glass),
-/// relief, other maps, options.
+///  - d or 1 − Tr, and map_d (its alpha, or its grey): the share of the surface that is there.
+/// What else changes how a material looks is a finding: illum of glass, relief, other maps, options.
 class MtlReader {
  public:
   MtlReader(scene::Scene& scene, LinkedFiles& files, FileFinder& finder, Diagnosis& diagnosis)
@@ -43,11 +43,14 @@ class MtlReader {
   int find(std::string_view name) const;
   /// What a map's options do to the coordinates of meshes of this material.
   UvTransform uvOf(int material) const;
+  /// After the last file: leaves out pictures of which others with their colour or alpha were made.
+  void dropParts();
 
  private:
   Status add(const MtlEntry& entry);
   void tellUnread(const MtlEntry& entry);
   Result<int> texture(const MtlMap& map);
+  Result<int> textureOf(const MtlEntry& entry);
 
   scene::Scene& scene_;
   LinkedFiles& files_;
@@ -57,6 +60,7 @@ class MtlReader {
   std::set<std::filesystem::path> read_;
   std::map<std::string, int, std::less<>> materials_;
   std::map<int, UvTransform> uvs_;
+  std::map<std::pair<int, int>, int> combined_;  ///< by textures of colour and alpha
   std::map<std::pair<std::filesystem::path, bool>, int> textures_;  ///< by place and clamping
 };
 

@@ -53,6 +53,8 @@ void readStatement(std::string_view key, TextCursor& cursor, MtlEntry& entry) {
     entry.illumination = value >= 0.0 && value <= 10.0 ? int(value) : 2;
   } else if (key == "map_Kd") {
     entry.diffuseMap = readMtlMap(cursor.rest());
+  } else if (key == "map_d" || key == "map_D" || key == "map_opacity") {
+    entry.opacityMap = readMtlMap(cursor.rest());
   } else if (isOneOf(key, kWithoutMeaning)) {
     return;
   } else if (key.starts_with("map_") || isOneOf(key, kOtherMaps)) {

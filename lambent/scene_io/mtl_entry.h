@@ -18,7 +18,7 @@ struct MtlEntry {
   std::optional<Rgb> diffuse, specular, emission;  ///< as they are, finite
   std::optional<double> exponent, metallic, roughness, opacity, transparency;
   int illumination = 2;
-  MtlMap diffuseMap;
+  MtlMap diffuseMap, opacityMap;
   /// The names of maps that are not read, by keyword: "map_Ks", "bump".
   std::vector<std::pair<std::string, std::string>> otherMaps;
   /// Keywords that have no meaning here but change a look: "Pc", "aniso", or that nobody knows.

@@ -240,6 +240,7 @@ Result<LoadedScene> ObjReader::read() {
   for (const std::string& names : text_.libraries) {
     if (Status status = readLibraries(names); !status) return status.error();
   }
+  materials_.dropParts();
   scene_.origin = farOrigin(usedBox());
   noteFarOrigin(scene_.origin, diagnosis_);
   white_ = whiteOf(text_.colors);
@@ -254,8 +255,7 @@ Result<LoadedScene> ObjReader::read() {
                                  ? "; it may not be an OBJ file"
                                  : ", only vertices; export it with its faces"));
   }
-  const auto given =
-      giveBacks(scene_, files_.options().sides, name_, files_.budget(), diagnosis_);
+  const auto given = giveBacks(scene_, files_.options().sides, name_, files_.budget(), diagnosis_);
   if (!given) return given.error();
   return LoadedScene{std::move(scene_), diagnosis_.findings(), files_.noted()};
 }

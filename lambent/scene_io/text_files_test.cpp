@@ -34,6 +34,9 @@ class TextFiles : public testing::Test {
     std::filesystem::create_directories((folder_ / name).parent_path());
     folder_.write(name, std::span<const std::byte>(image::encodePng(1, 1, 4, texels)));
   }
+  void writeTwo(const std::string& name, const std::vector<std::uint8_t>& texels) {
+    folder_.write(name, std::span<const std::byte>(image::encodePng(2, 1, 4, texels)));
+  }
   TemporaryFolder folder_;
 };
 
@@ -188,11 +191,8 @@ TEST_F(TextFiles, OptionsOfMapsMoveTheMeshesThatHaveThem) {
 TEST_F(TextFiles, WhatMaterialsLoseIsSaid) {
   writePicture("own.png");
   const std::pair<const char*, const char*> cases[] = {
-      {"d 0.5", "alpha-ignored"},
-      {"Tr 0.5", "alpha-ignored"},
-      {"Tr 1", "alpha-ignored"},
-      {"map_d own.png", "alpha-ignored"},
-      {"d -halo 0.2", "alpha-ignored"},
+      {"map_Tr own.png", "alpha-ignored"},
+      {"map_Kd own.png\nmap_d -s 2 2 1 own.png", "alpha-placed-otherwise"},
       {"illum 7", "alpha-ignored"},
       {"map_Bump own.png", "relief-ignored"},
       {"bump own.png -bm 1", "relief-ignored"},
@@ -211,6 +211,46 @@ TEST_F(TextFiles, WhatMaterialsLoseIsSaid) {
       "Ka 1 1 1\nKd 0.5 0.5 0.5\nKs 0 0 0\nKe 0 0 0\nNs 10\nNi 1.45\nd 1\nTr 0\nTf 1 1 1\n"
       "illum 2\nsharpness 60\nPc 0\nmap_Kd own.png\nmap_Ka own.png\n");
   for (const Finding& finding : usual.findings) EXPECT_FALSE(finding.loss) << finding.code;
+}
+
+TEST_F(TextFiles, MaterialsMayBeThereInPartsAlone) {
+  writePicture("own.png");
+  const auto opacityOf = [&](const char* statements) {
+    const LoadedScene loaded = loadMaterial(std::string(statements) + "\n");
+    EXPECT_EQ(countOf(loaded.findings, "alpha-ignored"), 0u) << statements;
+    const scene::Material& material = loaded.scene.materials[0];
+    EXPECT_EQ(material.alphaMode,
+              material.opacity < 1.0f ? scene::AlphaMode::Blend : scene::AlphaMode::Opaque);
+    return material.opacity;
+  };
+  EXPECT_EQ(opacityOf("d 1"), 1.0f);
+  EXPECT_EQ(opacityOf("d 0.5"), 0.5f);
+  EXPECT_EQ(opacityOf("d -halo 0.25"), 0.25f);
+  EXPECT_EQ(opacityOf("Tr 0.25"), 0.75f);
+  EXPECT_EQ(opacityOf("Tr 1"), 0.0f);
+  EXPECT_EQ(opacityOf("d 0.5\nTr 0.25"), 0.5f);
+  EXPECT_EQ(opacityOf("d 0.5\nillum 7"), 0.5f);
+  EXPECT_EQ(opacityOf("d 7"), 1.0f);
+}
+
+TEST_F(TextFiles, MapsOfOpacity) {
+  // Two texels: of the grey ones the alpha is the grey; of those with an alpha that.
+  writeTwo("grey.png", {0, 0, 0, 255, 255, 255, 255, 255});
+  writeTwo("alpha.png", {255, 255, 255, 51, 255, 255, 255, 255});
+  writeTwo("red.png", {200, 0, 0, 255, 100, 0, 0, 255});
+  const auto texelsOf = [&](const char* statements) {
+    const LoadedScene loaded = loadMaterial(std::string(statements) + "\n");
+    const scene::Material& material = loaded.scene.materials[0];
+    EXPECT_EQ(material.alphaMode, scene::AlphaMode::Blend);
+    return loaded.scene.textures.at(std::size_t(material.baseColorTexture)).rgba;
+  };
+  using Texels = std::vector<std::uint8_t>;
+  EXPECT_EQ(loadMaterial("map_Kd red.png\nmap_d grey.png\n").scene.textures.size(), 1u);
+  EXPECT_EQ(texelsOf("map_d grey.png"), (Texels{255, 255, 255, 0, 255, 255, 255, 255}));
+  EXPECT_EQ(texelsOf("map_d alpha.png"), (Texels{255, 255, 255, 51, 255, 255, 255, 255}));
+  EXPECT_EQ(texelsOf("map_Kd red.png\nmap_d grey.png"), (Texels{200, 0, 0, 0, 100, 0, 0, 255}));
+  EXPECT_EQ(texelsOf("map_Kd alpha.png\nmap_d alpha.png"),
+            (Texels{255, 255, 255, 51, 255, 255, 255, 255}));
 }
 
 TEST_F(TextFiles, EmissionOfMaterials) {

@@ -19,4 +19,9 @@ bool isReadablePicture(std::span<const std::byte> bytes);
 Result<scene::Texture> decodeTexture(std::span<const std::byte> bytes, const std::string& place,
                                      file::Budget& budget);
 
+/// A texture of one picture's colour (white without it) and another's alpha, of the larger size
+/// each way: its alpha where it has any, its grey otherwise. Of the colour's name and wrapping.
+Result<scene::Texture> withAlphaOf(const scene::Texture* color, const scene::Texture& alpha,
+                                   const std::string& place, file::Budget& budget);
+
 }  // namespace lambent::scene_io

@@ -34,8 +34,8 @@ std::vector<SidedEdge> edgesOf(const scene::Scene& scene, const std::vector<bool
         const std::uint32_t a = places[first + t[std::size_t(k)]],
                             b = places[first + t[std::size_t((k + 1) % 3)]];
         if (a != b)
-          edges.push_back({std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), std::uint32_t(m),
-                           a < b});
+          edges.push_back(
+              {std::uint64_t(std::min(a, b)) << 32 | std::max(a, b), std::uint32_t(m), a < b});
       }
     first += scene.meshes[m].positions.size();
   }

@@ -18,17 +18,15 @@ scene::Material twoSided() {
 /// The walls and the roof of a box without its floor.
 scene::Mesh hood() {
   scene::Mesh mesh = scene::box(Vec3(1, 1, 1));
-  std::erase_if(mesh.triangles, [&](const scene::Triangle& t) {
-    return mesh.normals[t[0]].y() < -0.5f;
-  });
+  std::erase_if(mesh.triangles,
+                [&](const scene::Triangle& t) { return mesh.normals[t[0]].y() < -0.5f; });
   return mesh;
 }
 
 scene::Mesh lid() {
   scene::Mesh mesh = scene::box(Vec3(1, 1, 1));
-  std::erase_if(mesh.triangles, [&](const scene::Triangle& t) {
-    return mesh.normals[t[0]].y() > -0.5f;
-  });
+  std::erase_if(mesh.triangles,
+                [&](const scene::Triangle& t) { return mesh.normals[t[0]].y() > -0.5f; });
   return mesh;
 }
 
@@ -73,8 +71,7 @@ TEST_F(TwoSides, WhatBoundsABodyIsNot) {
   scene::addTo(scene, lid(), twoSided());
   const LoadedScene read = loaded(scene);
   for (const scene::Mesh& mesh : read.scene.meshes) EXPECT_FALSE(scene::hasBacks(mesh));
-  for (const scene::Material& material : read.scene.materials)
-    EXPECT_TRUE(material.doubleSided);
+  for (const scene::Material& material : read.scene.materials) EXPECT_TRUE(material.doubleSided);
   EXPECT_EQ(countOf(read.findings, "two-sided"), 0u);
   // Without its floor the box is open. Wound against each other two halves bound nothing.
   scene.meshes.pop_back();

@@ -139,10 +139,10 @@ void castClosest(const RayScene& scene, const DirectionSet& directions, const Ve
       const float facing = query.hit.Ng_x[k] * query.ray.dir_x[k] +
                            query.hit.Ng_y[k] * query.ray.dir_y[k] +
                            query.hit.Ng_z[k] * query.ray.dir_z[k];
-      DirectionHit& hit = result.hits.emplace_back(
-          DirectionHit{direction, query.hit.primID[k], query.ray.tfar[k], query.hit.u[k],
-                       query.hit.v[k], facing > 0.0f});
-      scene.impl().nameSide(hit.globalTriangle, hit.u, hit.v, hit.backFace);
+      DirectionHit& hit =
+          result.hits.emplace_back(DirectionHit{direction, query.hit.primID[k], query.ray.tfar[k],
+                                                query.hit.u[k], query.hit.v[k], facing > 0.0f});
+      scene.impl().nameSide(query.hit.geomID[k], hit.globalTriangle, hit.u, hit.v, hit.backFace);
     }
   }
   result.occludedCount = static_cast<std::size_t>(occluded - result.occluded.data());

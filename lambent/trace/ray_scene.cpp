@@ -1,6 +1,7 @@
 #include "lambent/trace/ray_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <string>
 
@@ -26,26 +27,59 @@ RTCRay makeRay(const Vec3& origin, const Vec3& direction, float tNear, float tFa
   return ray;
 }
 
-/// The triangles of a mesh that are traced.
-std::span<const scene::Triangle> frontsOf(const scene::Mesh& mesh) {
-  const std::span<const scene::Triangle> all = mesh.triangles;
-  return scene::hasBacks(mesh) ? all.first(all.size() / 2) : all;
-}
+/// Corners of the triangles that Embree gets, by geometry.
+using Traced = std::array<std::vector<scene::Triangle>, 2>;
 
-bool hasAnyBacks(const scene::Scene& scene) {
-  return std::any_of(scene.meshes.begin(), scene.meshes.end(), scene::hasBacks);
-}
-
-std::vector<RayScene::Impl::Sides> sidesOf(const scene::Scene& scene,
-                                           std::span<const std::uint32_t> offsets) {
-  std::vector<RayScene::Impl::Sides> sides;
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    const auto all = std::uint32_t(scene.meshes[m].triangles.size());
-    const auto fronts = std::uint32_t(frontsOf(scene.meshes[m]).size());
-    for (std::uint32_t t = 0; t < fronts; ++t)
-      sides.push_back({offsets[m] + t, offsets[m] + t + (all - fronts)});
+/// Of meshes with backs the fronts alone. Where Embree's numbers are not the global ones, what is
+/// traced is noted in `impl`.
+Traced tracedOf(const scene::Scene& scene, const std::vector<scene::Passing>& passings,
+                RayScene::Impl& impl) {
+  Traced traced;
+  const bool anyBacks = std::any_of(scene.meshes.begin(), scene.meshes.end(), scene::hasBacks);
+  impl.numbered = anyBacks || impl.holes;
+  std::vector<Holes::Place> places;
+  for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+    const scene::Mesh& mesh = scene.meshes[m];
+    const Geometry which = passings[m] == scene::Passing::Nothing ? kWhole : kHoled;
+    const bool backs = anyBacks && scene::hasBacks(mesh);
+    const std::size_t fronts = mesh.triangles.size() / (backs ? 2 : 1);
+    traced[which].reserve(traced[which].size() + fronts);
+    for (std::uint32_t t = 0; t < fronts; ++t) {
+      scene::Triangle corners = mesh.triangles[t];
+      for (std::uint32_t& corner : corners) corner += impl.vertexOffsets[m];
+      traced[which].push_back(corners);
+      const std::uint32_t front = impl.triangleOffsets[m] + t;
+      if (impl.numbered)
+        impl.sides[which].push_back({front, backs ? front + std::uint32_t(fronts) : front});
+      if (which == kHoled) places.push_back({m, t});
+    }
   }
-  return sides;
+  if (impl.holes) impl.holes->places = std::move(places);
+  return traced;
+}
+
+void copyPositions(const scene::Scene& scene, float* to) {
+  for (const scene::Mesh& mesh : scene.meshes)
+    for (const Vec3& p : mesh.positions) *to++ = p.x(), *to++ = p.y(), *to++ = p.z();
+}
+
+/// False: there is no memory.
+bool attach(const RayScene::Impl& impl, Geometry which, const std::vector<scene::Triangle>& traced,
+            RTCBuffer positions, std::size_t vertexCount) {
+  RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions, 0,
+                       3 * sizeof(float), vertexCount);
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          sizeof(scene::Triangle), traced.size());
+  if (indices) {
+    std::memcpy(indices, traced.data(), traced.size() * sizeof(scene::Triangle));
+    if (which == kHoled) Holes::passOver(geometry, *impl.holes);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(impl.scene, geometry, which);
+  }
+  rtcReleaseGeometry(geometry);
+  return indices != nullptr;
 }
 
 }  // namespace
@@ -76,31 +110,21 @@ Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
   if (!impl->device) return embreeError(rtcGetDeviceError(nullptr), "starting");
   impl->scene = rtcNewScene(impl->device);
   if (edges == Edges::Watertight) rtcSetSceneFlags(impl->scene, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), vertexCount));
-  if (hasAnyBacks(scene)) impl->sides = sidesOf(scene, impl->triangleOffsets);
-  const std::size_t traced = impl->sides.empty() ? triangleCount : impl->sides.size();
-  auto* indices = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), traced));
-  if (!positions || !indices) {
-    rtcReleaseGeometry(geometry);
-    return embreeError(rtcGetDeviceError(impl->device), "allocating the triangles");
+  const std::vector<scene::Passing> passings = scene::passingsOf(scene);
+  if (std::any_of(passings.begin(), passings.end(),
+                  [](scene::Passing passing) { return passing != scene::Passing::Nothing; }))
+    impl->holes = std::make_unique<Holes>(scene, passings);
+  Traced traced = tracedOf(scene, passings, *impl);
+  RTCBuffer positions = rtcNewBuffer(impl->device, (3 * vertexCount + 1) * sizeof(float));
+  if (positions) copyPositions(scene, static_cast<float*>(rtcGetBufferData(positions)));
+  bool there = positions != nullptr;
+  for (const Geometry which : {kWhole, kHoled}) {
+    if (there && !traced[which].empty())
+      there = attach(*impl, which, traced[which], positions, vertexCount);
+    traced[which] = {};
   }
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    const scene::Mesh& mesh = scene.meshes[m];
-    const std::uint32_t first = impl->vertexOffsets[m];
-    for (const Vec3& p : mesh.positions) {
-      *positions++ = p.x(), *positions++ = p.y(), *positions++ = p.z();
-    }
-    for (const scene::Triangle& t : frontsOf(mesh))
-      for (std::uint32_t corner : t) *indices++ = first + corner;
-  }
-  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(impl->scene, geometry, 0);
-  rtcReleaseGeometry(geometry);
+  if (positions) rtcReleaseBuffer(positions);
+  if (!there) return embreeError(rtcGetDeviceError(impl->device), "allocating the triangles");
   rtcSetSceneBuildQuality(impl->scene, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitScene(impl->scene);
   // Asking takes the error back: once.
@@ -123,7 +147,7 @@ std::optional<Hit> RayScene::closest(const Vec3& origin, const Vec3& direction, 
   std::uint32_t triangle = query.hit.primID;
   float u = query.hit.u, v = query.hit.v;
   bool backFace = normal.dot(direction) > 0.0f;
-  impl_->nameSide(triangle, u, v, backFace);
+  impl_->nameSide(query.hit.geomID, triangle, u, v, backFace);
   const GlobalTriangle place = locate(triangle);
   return Hit{query.ray.tfar, place.mesh, place.triangle, u, v, backFace};
 }

@@ -68,9 +68,9 @@ TEST(RayScene, OfTwoSidesItNamesTheOneThatIsMet) {
   scene.meshes.insert(scene.meshes.begin() + 1, scene::withBacks(square(0.5f, 1, true)));
   const auto rays = RayScene::build(scene);
   ASSERT_TRUE(rays);
-  EXPECT_EQ(std::vector<std::uint32_t>(rays->triangleOffsets().begin(),
-                                       rays->triangleOffsets().end()),
-            (std::vector<std::uint32_t>{0, 2, 6, 8}));
+  EXPECT_EQ(
+      std::vector<std::uint32_t>(rays->triangleOffsets().begin(), rays->triangleOffsets().end()),
+      (std::vector<std::uint32_t>{0, 2, 6, 8}));
   for (const float from : {0.1f, 0.9f}) {
     const Vec3 origin(0.3f, from, -0.7f);
     const Vec3 direction(0, from < 0.5f ? 1.0f : -1.0f, 0);
@@ -78,7 +78,7 @@ TEST(RayScene, OfTwoSidesItNamesTheOneThatIsMet) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->mesh, 1u);
     EXPECT_FALSE(hit->backFace);
-    EXPECT_EQ(hit->triangle < 2, from > 0.5f);
+    EXPECT_EQ(hit->triangle<2, from> 0.5f);
     const scene::SurfacePoint point =
         scene::surfaceAt(scene, hit->mesh, hit->triangle, hit->u, hit->v);
     EXPECT_LT((point.position - Vec3(0.3f, 0.5f, -0.7f)).norm(), 1e-6f);

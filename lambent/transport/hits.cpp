@@ -11,39 +11,55 @@ namespace lambent::transport {
 
 namespace {
 
-constexpr int kMostMirrors = 64;  ///< in one path; the path tracer stops there as well
+constexpr int kMostMirrors = 64;      ///< in one path; the path tracer stops there as well
+constexpr float kLeastLight = 1e-4f;  ///< behind veils: what is less is not followed
 
-/// Where a ray that struck a mirror ends (sloan2002precomputed §5: it is always reflected, until a
-/// surface that is no mirror is reached).
-struct ChainEnd {
+/// A ray on its way, and what it met.
+struct Segment {
+  Vec3 origin, direction;
   std::optional<trace::Hit> hit;  ///< none: it left the scene
-  Vec3 direction;                 ///< unit, of the last segment
-  Rgb throughput;
+  Rgb throughput;                 ///< of all before what it met
 };
 
-/// No value: the chain met the back of a surface or went on for too long, and carries no light.
-std::optional<ChainEnd> followMirrors(const scene::Scene& scene, const trace::RayScene& rays,
-                                      std::uint32_t mesh, std::uint32_t triangle, float u, float v,
-                                      Vec3 direction) {
-  Rgb throughput = Rgb::Ones();
-  for (int mirrors = 0; mirrors < kMostMirrors; ++mirrors) {
-    const scene::SurfacePoint point = scene::surfaceAt(scene, mesh, triangle, u, v);
-    throughput *= point.mirror;
-    direction = math::reflectAbout(-direction, point.normal).normalized();
+/// Where a ray that struck a mirror or a veil ends: a mirror always reflects, until a surface that is
+/// none is reached (sloan2002precomputed §5); behind a veil a share goes on as it was. What meets the
+/// back of a surface, or goes on for too long, carries no light.
+std::vector<Segment> endsOf(const scene::Scene& scene, const trace::RayScene& rays,
+                            const trace::Veils& veils, Segment first) {
+  std::vector<Segment> ends, pending{std::move(first)};
+  for (int segments = 0; segments <= kMostMirrors && !pending.empty(); ++segments) {
+    Segment at = std::move(pending.back());
+    pending.pop_back();
+    if (!at.hit) {
+      ends.push_back(std::move(at));
+      continue;
+    }
+    const trace::Hit& hit = *at.hit;
+    if (veils.has(hit.mesh)) {
+      const Rgb passed = at.throughput * veils.passed(hit);
+      if (passed.maxCoeff() > kLeastLight)
+        pending.push_back({at.origin, at.direction,
+                           rays.closest(at.origin, at.direction, trace::Veils::beyond(hit)),
+                           passed});
+      at.throughput *= veils.coverage(hit);
+    }
+    if (hit.backFace || !(at.throughput.maxCoeff() > 0.0f)) continue;
+    if (!scene.materials[scene.meshes[hit.mesh].material].isMirror()) {
+      ends.push_back(std::move(at));
+      continue;
+    }
+    const scene::SurfacePoint point = scene::surfaceAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
+    const Vec3 direction = math::reflectAbout(-at.direction, point.normal).normalized();
     const Vec3 origin = point.position + rays.offset() * point.normal;
-    const std::optional<trace::Hit> next = rays.closest(origin, direction);
-    if (!next) return ChainEnd{std::nullopt, direction, throughput};
-    if (next->backFace) return std::nullopt;
-    if (!scene.materials[scene.meshes[next->mesh].material].isMirror())
-      return ChainEnd{next, direction, throughput};
-    mesh = next->mesh, triangle = next->triangle, u = next->u, v = next->v;
+    pending.push_back(
+        {origin, direction, rays.closest(origin, direction), at.throughput * point.mirror});
   }
-  return std::nullopt;
+  return ends;
 }
 
 }  // namespace
 
-void sortHits(const scene::Scene& scene, const trace::RayScene& rays,
+void sortHits(const scene::Scene& scene, const trace::RayScene& rays, const trace::Veils& veils,
               const PlacedReceivers& receivers, const trace::DirectionSet& directions,
               std::uint32_t self, const trace::CastResult& cast, ReceiverHits& hits,
               std::vector<MirrorEscape>& escapes, HitCounts& counts) {
@@ -58,22 +74,27 @@ void sortHits(const scene::Scene& scene, const trace::RayScene& rays,
   const Vec2 start = random.uniform2();
   std::uint32_t ordinal = 0;
   for (const trace::DirectionHit& hit : cast.hits) {
-    if (hit.backFace) {
+    const trace::RayScene::GlobalTriangle place = rays.locate(hit.globalTriangle);
+    const bool veil = veils.any() && veils.has(place.mesh);
+    if (hit.backFace && !veil) {
       ++backFaces;
       continue;
     }
     const Vec2 draw = math::r2(ordinal++, start);
-    const trace::RayScene::GlobalTriangle place = rays.locate(hit.globalTriangle);
-    if (scene.materials[scene.meshes[place.mesh].material].isMirror()) {
-      const auto end = followMirrors(scene, rays, place.mesh, place.triangle, hit.u, hit.v,
-                                     directions[hit.direction]);
-      if (!end) continue;
-      if (!end->hit) {
-        escapes.push_back({hit.direction, end->direction, end->throughput});
-      } else {
-        const std::uint32_t who = drawReceiver(scene, receivers, end->hit->mesh, end->hit->triangle,
-                                               end->hit->u, end->hit->v, draw.x(), draw.y());
-        hits.mirrored.push_back({who, hit.direction, end->direction, end->throughput});
+    if (veil || scene.materials[scene.meshes[place.mesh].material].isMirror()) {
+      const Vec3& direction = directions[hit.direction];
+      Segment first{
+          receivers.origins[self], direction,
+          trace::Hit{hit.distance, place.mesh, place.triangle, hit.u, hit.v, hit.backFace},
+          Rgb::Ones()};
+      for (const Segment& end : endsOf(scene, rays, veils, std::move(first))) {
+        if (!end.hit) {
+          escapes.push_back({hit.direction, end.direction, end.throughput});
+          continue;
+        }
+        const std::uint32_t who = drawReceiver(scene, receivers, end.hit->mesh, end.hit->triangle,
+                                               end.hit->u, end.hit->v, draw.x(), draw.y());
+        hits.mirrored.push_back({who, hit.direction, end.direction, end.throughput});
       }
       continue;
     }

@@ -5,19 +5,21 @@
 #include <vector>
 
 #include "lambent/trace/cast.h"
+#include "lambent/trace/veils.h"
 #include "lambent/transport/receivers.h"
 
 namespace lambent::transport {
 
-/// A direction that ended, after one or more mirrors, on a surface that records transfer.
+/// A direction that ended, after one or more mirrors, behind veils, or on one, on a surface that
+/// records transfer.
 struct MirroredHit {
   std::uint32_t receiver;   ///< who lights: see drawReceiver
   std::uint32_t direction;  ///< as it left
   Vec3 arrival;             ///< unit, as it arrived
-  Rgb throughput;           ///< product of the mirrors' reflectances
+  Rgb throughput;           ///< product of reflectances and of what veils let through
 };
 
-/// A direction that left the scene after one or more mirrors: direct light by way of them.
+/// A direction that left the scene after one or more mirrors or veils: direct light by way of them.
 struct MirrorEscape {
   std::uint32_t direction;
   Vec3 outward;  ///< unit, as it left the scene
@@ -49,7 +51,7 @@ struct HitCounts {
 
 /// Sorts what a cast met from receiver `self` into hits and escapes. Reproducible: cast again, the
 /// same records come out.
-void sortHits(const scene::Scene& scene, const trace::RayScene& rays,
+void sortHits(const scene::Scene& scene, const trace::RayScene& rays, const trace::Veils& veils,
               const PlacedReceivers& receivers, const trace::DirectionSet& directions,
               std::uint32_t self, const trace::CastResult& cast, ReceiverHits& hits,
               std::vector<MirrorEscape>& escapes, HitCounts& counts);

@@ -9,6 +9,10 @@ bool hasBaseColorMap() { return hasTexture; }
 
 ivec2 baseColorSize() { return textureSize(baseColorTexture, 0); }
 
+float baseColorAlpha(ivec2 texel) {
+  return float(texelFetch(baseColorTexture, texel, 0).a) / 255.0;
+}
+
 vec3 baseColorTexel(ivec2 texel) {
   uvec4 t = texelFetch(baseColorTexture, texel, 0);
   return vec3(linearFromSrgb[t.r], linearFromSrgb[t.g], linearFromSrgb[t.b]);

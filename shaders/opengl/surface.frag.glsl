@@ -3,7 +3,7 @@
 // Before this text stand: #define LAMBENT_KIND: 0 transfer at the vertices, 1 at texels, 2 a mirror,
 // 3 black; LAMBENT_GROUPS, LAMBENT_INTERPOLATED and LAMBENT_EACH_GROUP as in surface.vert.glsl and,
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
-// base_color.glsl, base_color_map.glsl, shading_normal.glsl, texel_receivers.glsl,
+// base_color.glsl, with LAMBENT_ALPHA coverage.glsl, base_color_map.glsl, shading_normal.glsl, texel_receivers.glsl,
 // corner_weights.glsl; for receivers sun_shadow.glsl; for mirrors environment.glsl, environment_maps.glsl;
 // LAMBENT_AIR 1, with what air_texels.glsl says, or 0.
 
@@ -37,6 +37,9 @@ uniform vec3 sunDirection;
 in vec3 position;
 in vec4 normalU;
 in vec4 colorV;
+#if LAMBENT_ALPHA
+in float vertexAlpha;
+#endif
 #if LAMBENT_KIND == 0
 in vec3 exitRadiance;
 #endif
@@ -134,10 +137,16 @@ vec3 litRadiance() { return vec3(0.0); }
 #endif
 
 void main() {
+#if LAMBENT_ALPHA
+  if (!isThere(vertexAlpha, uv(), gl_FragCoord.xyz)) discard;
+#endif
 #if LAMBENT_KIND == 1
   if (!chooseTexels()) discard;
 #endif
   vec3 sent = gl_FrontFacing ? litRadiance() : vec3(0.0);
+#if LAMBENT_ALPHA
+  sent /= max(kept, 1e-4);
+#endif
 #if LAMBENT_AIR
   sent = seenThroughAir(position - eye.xyz, sent);
 #endif

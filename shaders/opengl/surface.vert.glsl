@@ -3,12 +3,12 @@
 //
 // Before this text stand: #define LAMBENT_KIND, LAMBENT_GROUPS (the lobe's numbers in groups of four,
 // 0: not glossy), LAMBENT_INTERPOLATED 1, or 0 where the rasteriser does not take as many, and
-// LAMBENT_EACH_GROUP(DO), which is DO(0) DO(1) … for all of them.
+// LAMBENT_ALPHA 1 where it may be there in parts alone, or 0, and LAMBENT_EACH_GROUP(DO), which is DO(0) DO(1) … for all of them.
 
 struct Vertex {
   vec4 positionU;  // world position, texture coordinate u
   vec4 normalV;    // unit normal, v
-  vec4 color;
+  vec4 color;      // and alpha
 };
 
 layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
@@ -23,6 +23,9 @@ uniform bool hasDiffuse, hasSunShare;  // the share is to be taken out
 out vec3 position;
 out vec4 normalU;
 out vec4 colorV;
+#if LAMBENT_ALPHA
+out float vertexAlpha;
+#endif
 #if LAMBENT_KIND == 0
 out vec3 exitRadiance;
 #if LAMBENT_INTERPOLATED
@@ -35,6 +38,9 @@ void main() {
   position = vertex.positionU.xyz;
   normalU = vec4(vertex.normalV.xyz, vertex.positionU.w);
   colorV = vec4(vertex.color.rgb, vertex.normalV.w);
+#if LAMBENT_ALPHA
+  vertexAlpha = vertex.color.a;
+#endif
 #if LAMBENT_KIND == 0
   int at = 3 * gl_VertexID;
   exitRadiance = hasDiffuse ? vec3(diffuse[at], diffuse[at + 1], diffuse[at + 2]) : vec3(0.0);

@@ -12,10 +12,12 @@ uniform mat4 clipFromWorld;
 
 out vec2 uv;
 out vec3 color;
+out float vertexAlpha;
 
 void main() {
   Vertex vertex = vertices[gl_VertexID];
   uv = vec2(vertex.positionU.w, vertex.normalV.w);
   color = vertex.color.rgb;
+  vertexAlpha = vertex.color.a;
   gl_Position = clipFromWorld * vec4(vertex.positionU.xyz, 1.0);
 }

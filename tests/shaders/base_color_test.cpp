@@ -11,8 +11,13 @@
 #define LAMBENT_MAP 1
 namespace lambent::glsl::mapped {
 #include "shaders/base_color.glsl"
+#include "shaders/coverage.glsl"
 
 const scene::Texture* texture = nullptr;
+
+float baseColorAlpha(ivec2 texel) {
+  return float(texture->rgba[std::size_t(4 * (texel.y * texture->width + texel.x) + 3)]) / 255.0f;
+}
 
 bool hasBaseColorMap() {
   return texture != nullptr;
@@ -80,11 +85,47 @@ TEST(BaseColor, IsTheLibrarys) {
                           shade::baseColorAt(scene, 0, 0, u, v)),
                     1e-5f)
               << uv.transpose();
+          ASSERT_NEAR(mapped::sampleAlpha(from(uv)), scene::sampleAlpha(texture, uv), 1e-5f)
+              << uv.transpose();
           mapped::texture = nullptr;
           ASSERT_LT(apart(mapped::baseColor(from(color), from(uv)), color), 1e-9f);
           ASSERT_LT(apart(plain::baseColor(from(color), from(uv)), color), 1e-9f);
         }
       }
+}
+
+TEST(Coverage, AMaskHasAThresholdAndABlendAShareOfSubSamples) {
+  scene::Texture texture;
+  texture.width = texture.height = 1;
+  texture.rgba = {255, 255, 255, 102};
+  mapped::texture = &texture;
+  mapped::kept = 1.0f;
+  mapped::alphaRule = vec2(0.5f, 0.3f);
+  mapped::alphaMode = 0;
+  EXPECT_TRUE(mapped::isThere(0.1f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
+  mapped::alphaMode = 1;
+  EXPECT_FALSE(mapped::isThere(1.0f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
+  mapped::alphaRule = vec2(1.0f, 0.3f);
+  EXPECT_TRUE(mapped::isThere(1.0f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
+  EXPECT_FALSE(mapped::isThere(0.7f, vec2(0.5f), vec3(3.5f, 4.5f, 0.2f)));
+  const auto share = [] {
+    int there = 0;
+    for (int pixel = 0; pixel < 1000; ++pixel)
+      for (int sample = 0; sample < 16; ++sample) {
+        mapped::veil = ivec2(7, sample);
+        there +=
+            mapped::isThere(0.75f, vec2(0.5f), vec3(pixel % 40 + 0.5f, pixel / 40 + 0.5f, 0.3f));
+      }
+    return there / 16000.0;
+  };
+  mapped::alphaMode = 2;
+  EXPECT_NEAR(share(), 0.3, 5e-3);
+  mapped::kept = 0.5f;
+  EXPECT_NEAR(share(), 0.15, 5e-3);
+  mapped::alphaMode = 0;
+  EXPECT_NEAR(share(), 0.5, 5e-3);
+  mapped::kept = 0.0f;
+  EXPECT_EQ(share(), 0.0);
 }
 
 // Nonsense in a file must not lead out of the texture.

@@ -188,6 +188,9 @@ inline float max(float a, float b) {
 inline float clamp(float x, float low, float high) {
   return min(max(x, low), high);
 }
+inline float fract(float x) {
+  return x - std::floor(x);
+}
 inline float mix(float a, float b, float share) {
   return a * (1.0f - share) + b * share;
 }

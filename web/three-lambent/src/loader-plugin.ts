@@ -3,6 +3,7 @@
 import type { BufferAttribute, Mesh, Object3D } from "three";
 import type { GLTF, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 import { LambentAsset, type MeshEntry } from "./asset/asset.js";
+import { coverageOf, kWhole } from "./materials/coverage.js";
 import { reflectanceOf } from "./asset/reflectance.js";
 import type { IncidentMode } from "./asset/relit-mesh.js";
 import { kExtensionName, LambentFormatError, type AssetDescription } from "./format/description.js";
@@ -65,10 +66,14 @@ export class LambentLoaderPlugin {
       const primitive = place.primitives ?? 0;
       const key = `${place.meshes}/${primitive}`;
       checkGeometry(mesh, key);
-      const material = json.meshes?.[place.meshes]?.primitives[primitive]?.material;
+      const index = json.meshes?.[place.meshes]?.primitives[primitive]?.material;
+      const material = json.materials?.[index ?? -1];
       const colored = mesh.geometry.hasAttribute("color");
-      const reflectance = reflectanceOf(json.materials?.[material ?? -1], colored);
-      entries.push({ mesh, key, reflectance });
+      const reflectance = reflectanceOf(material, colored);
+      // Meso-structure is whole.
+      const patched = description.primitives.get(key)?.biScale;
+      const coverage = patched ? kWhole : coverageOf(material, reflectance.transmitted);
+      entries.push({ mesh, key, reflectance, coverage });
     });
     // What no scene shows, nobody can relight.
     gltf.userData ??= {};

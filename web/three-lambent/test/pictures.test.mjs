@@ -12,6 +12,7 @@ import {
   ballScene,
   environmentExr,
   glossyScene,
+  leafScene,
   mattScene,
   mirrorScene,
   sheetScene,
@@ -42,6 +43,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       glossy: glossyScene,
       mirror: mirrorScene,
       sheet: sheetScene,
+      leaf: leafScene,
       texel: texelScene,
       ball: ballScene,
     };
@@ -72,6 +74,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     bake("glossy", "glossy-unshadowed", "--transfer", "unshadowed");
     bake("mirror", "mirror");
     bake("sheet", "sheet");
+    bake("leaf", "leaf");
     bake("texel", "texel", "--texels", "sheet=48x40");
     const patch = [
       "--positions",
@@ -224,6 +227,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     agree("glossy-lobe", "glossy.glb", ["--lobe", 40], { asset_: { lobeExponent: 40 } }));
   it("mirrors", () => agree("mirror", "mirror.glb"));
   it("two sides", () => agree("sheet", "sheet.glb"));
+  it("holes", () => agree("leaf", "leaf.glb"));
   it("texels, matt and glossy", () => agree("texel", "texel.glb"));
   it("meso-structure with an id map", () => agree("patch", "patch.glb"));
   it("… with light fetched per pixel", () =>

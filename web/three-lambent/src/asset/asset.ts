@@ -15,6 +15,7 @@ import { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { RttTexture } from "../gpu/rtt-texture.js";
 import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
 import type { AirMode } from "../materials/air-source.js";
+import type { Coverage } from "../materials/coverage.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
 import type { AerialPerspective } from "../sky/air.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
@@ -31,6 +32,7 @@ export interface MeshEntry {
   /** Of "MESH/PRIMITIVE" in the document. */
   key: string;
   reflectance: Reflectance;
+  coverage: Coverage;
 }
 
 const assets = new WeakMap<Object3D, LambentAsset>();
@@ -98,8 +100,15 @@ export class LambentAsset {
       rtt: (index: number) => this.rtt(index),
     };
     this.relit = entries.map(
-      ({ mesh, key, reflectance }) =>
-        new RelitMesh(mesh, description.primitives.get(key) ?? null, reflectance, shared),
+      ({ mesh, key, reflectance, coverage }, number) =>
+        new RelitMesh(
+          mesh,
+          description.primitives.get(key) ?? null,
+          reflectance,
+          shared,
+          coverage,
+          number,
+        ),
     );
     this.sun = new SharpSun(this.relit);
     for (const mesh of this.relit) mesh.sunUniforms = this.sun.uniforms;
@@ -204,6 +213,7 @@ export class LambentAsset {
       lobeExponent: this.lobeExponent,
       unlit: this.unlit,
       samples: this.samples,
+      sample: this.sample,
       sun: this.sun.shines,
       air: this.airMode,
     };

@@ -27,6 +27,7 @@ import { kGroupsAFetch, kNumbersOf, type RttTexture } from "../gpu/rtt-texture.j
 import { TransferPass, TurnPass, type LightPass } from "../gpu/transfer-pass.js";
 import type { AirMode } from "../materials/air-source.js";
 import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
+import { coverageUniforms, hasGaps, type Coverage } from "../materials/coverage.js";
 import { incidentGroups } from "../materials/group-macros.js";
 import {
   makePatchMaterial,
@@ -49,6 +50,7 @@ export interface Choices {
   lobeExponent: number | null;
   unlit: boolean;
   samples: number;
+  sample: number;
   /** There is a Sun whose shadows are sharp. */
   sun: boolean;
   air: AirMode;
@@ -108,6 +110,8 @@ export class RelitMesh {
     readonly transfer: PrimitiveTransfer | null,
     private readonly reflectance: Reflectance,
     private readonly shared: Shared,
+    readonly coverage: Coverage,
+    private readonly number: number,
   ) {
     this.geometry = mesh.geometry;
     this.original = mesh.material as Material;
@@ -122,6 +126,10 @@ export class RelitMesh {
   /** Its triangles, as the loader made them. */
   get plain(): BufferGeometry {
     return this.geometry;
+  }
+
+  get texture(): Texture | null {
+    return this.uv ? this.map : null;
   }
 
   get isMirror(): boolean {
@@ -159,6 +167,7 @@ export class RelitMesh {
     }
     const material = this.material!;
     material.samples = choices.samples;
+    material.sample = choices.sample;
     if (material.uniforms.viewDependent)
       material.uniforms.viewDependent.value = choices.viewDependent;
     return fresh;
@@ -166,11 +175,13 @@ export class RelitMesh {
 
   private build(renderer: WebGLRenderer, choices: Choices): void {
     const { transfer, reflectance, map, colored, uv, shared } = this;
-    const plain = { map, colored, uv };
+    const gaps = hasGaps(this.coverage);
+    const plain = { map, colored, uv, gaps };
     const { air } = choices;
-    const throughAir = air === "none" ? {} : shared.air;
+    const covered = gaps ? coverageUniforms(this.coverage, this.number) : {};
+    const throughAir = { ...covered, ...(air === "none" ? {} : shared.air) };
     if (choices.unlit) {
-      this.show(makeSurfaceMaterial({ kind: "unlit", ...plain }, {}));
+      this.show(makeSurfaceMaterial({ kind: "unlit", ...plain }, covered));
       this.material!.uniforms.reflectance.value.set(...reflectance.base);
     } else if (this.isMirror) {
       const uniforms = { ...shared.environment.uniforms, ...throughAir };
@@ -207,7 +218,10 @@ export class RelitMesh {
     const unshadowed = kind === "unshadowed" && description.transfer !== "unshadowed";
     const from =
       kind === "shadowed" && description.transfer !== kind ? transfer.shadowed : transfer;
-    const uniforms: Record<string, IUniform> = {};
+    const gaps = hasGaps(this.coverage);
+    const uniforms: Record<string, IUniform> = gaps
+      ? coverageUniforms(this.coverage, this.number)
+      : {};
     const direct = choices.sun ? kindWithoutBounces(description, transfer, choices.transfer) : null;
     const { receivers, grid } = transfer;
     let albedoOutside = false;
@@ -258,7 +272,7 @@ export class RelitMesh {
       sun: direct && (direct === "unshadowed" ? ("open" as const) : ("hidden" as const)),
       sunShare: apart !== null && apart,
       air: choices.air,
-      ...{ albedoOutside, lobeBands, fetch, map, colored, uv },
+      ...{ albedoOutside, lobeBands, fetch, map, colored, uv, gaps },
     };
     this.show(makeSurfaceMaterial(shape, uniforms));
   }

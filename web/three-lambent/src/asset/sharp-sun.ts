@@ -62,7 +62,9 @@ export class SharpSun {
   private points: SunPoint[] = [];
 
   constructor(meshes: readonly RelitMesh[]) {
-    this.map = new SunMap(meshes.map(({ plain }) => plain));
+    this.map = new SunMap(
+      meshes.map(({ plain, coverage, texture }) => ({ geometry: plain, coverage, texture })),
+    );
     this.uniforms = {
       sunDirection: { value: new Vector3(0, 1, 0) },
       sunIrradiance: { value: new Vector3() },

@@ -6,4 +6,6 @@ bool hasBaseColorMap() { return true; }
 
 ivec2 baseColorSize() { return textureSize(baseColorMap, 0); }
 
+float baseColorAlpha(ivec2 texel) { return texelFetch(baseColorMap, texel, 0).a; }
+
 vec3 baseColorTexel(ivec2 texel) { return texelFetch(baseColorMap, texel, 0).rgb; }

@@ -4,7 +4,7 @@
 // Before this text stand: #define LAMBENT_KIND 0 vertices, 1 texels, 2 mirror, 3 black, 4 unlit;
 // LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_FETCH, LAMBENT_ALBEDO_OUTSIDE; with glossy sh.glsl,
 // incident.glsl, incident_texture.glsl, lobe.glsl; shading_normal.glsl, shading_point.glsl;
-// base_color.glsl, with a map base_color_map.glsl; for texels texel_receivers.glsl; LAMBENT_SUN (0: no
+// base_color.glsl, with LAMBENT_ALPHA coverage.glsl, with a map base_color_map.glsl; for texels texel_receivers.glsl; LAMBENT_SUN (0: no
 // sharp Sun, else sun_light.glsl with what it wants), LAMBENT_SUN_SHARE; LAMBENT_AIR, with what
 // air_texels.glsl and air_behind.glsl say, or 0; for a mirror environment.glsl, environment_map.glsl.
 
@@ -47,10 +47,17 @@ vec3 diffuseAt(Texels texels) {
 #endif
 #endif
 
+#if LAMBENT_ALPHA
+in float vertexAlpha;
+#endif
+
 void main() {
 #include <clipping_planes_fragment>
 #include <logdepthbuf_fragment>
   ShadingPoint point = shadingPoint();
+#if LAMBENT_ALPHA
+  if (!isThere(vertexAlpha, point.uv, gl_FragCoord.xyz)) discard;
+#endif
   gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0);
 #if LAMBENT_KIND != 3
   if (gl_FrontFacing) {
@@ -93,6 +100,9 @@ void main() {
 #endif
 #endif
   }
+#endif
+#if LAMBENT_ALPHA && LAMBENT_KIND != 4
+  gl_FragColor.rgb /= max(kept, 1e-4);
 #endif
 #if LAMBENT_AIR
   if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);

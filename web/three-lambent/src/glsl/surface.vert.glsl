@@ -1,7 +1,7 @@
 // A relit surface. Vertices fetch what the transfer pass made for them by their number.
 //
 // Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
-// LAMBENT_UV, LAMBENT_COLOR, LAMBENT_SUN_SHARE,
+// LAMBENT_UV, LAMBENT_COLOR, LAMBENT_SUN_SHARE, LAMBENT_ALPHA (it may be there in parts alone),
 // LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
 // corners, and vertices know their triangle); where they interpolate it incident_texture.glsl.
 
@@ -22,6 +22,9 @@ out vec3 barycentric;
 out vec4 positionU;
 out vec4 normalV;
 out vec3 vertexColor;
+#if LAMBENT_ALPHA
+out float vertexAlpha;
+#endif
 #if LAMBENT_VERTICES && LAMBENT_DIFFUSE
 uniform highp usampler2D diffuseLit;  // bits of floats
 uniform int diffuseALine;
@@ -46,6 +49,13 @@ void main() {
   vertexColor = color.rgb;
 #else
   vertexColor = vec3(1.0);
+#endif
+#if LAMBENT_ALPHA
+#ifdef USE_COLOR_ALPHA
+  vertexAlpha = color.a;
+#else
+  vertexAlpha = 1.0;
+#endif
 #endif
 #if LAMBENT_PATCH
   tangent_ = lambentTangent;

@@ -23,11 +23,21 @@ import {
   Vector4,
   WebGLRenderTarget,
   type BufferGeometry,
+  type IUniform,
   type Texture,
   type WebGLRenderer,
 } from "three";
-import { sunMapFrag, sunMapVert } from "../generated/shaders.js";
+import {
+  baseColor,
+  baseColorMap,
+  coverage as coverageGlsl,
+  sunMapCutFrag,
+  sunMapCutVert,
+  sunMapFrag,
+  sunMapVert,
+} from "../generated/shaders.js";
 import { worldFromTangent, type Vector } from "../light/frames.js";
+import { coverageUniforms, hasGaps, mapUniforms, type Coverage } from "../materials/coverage.js";
 import { renderInto } from "./render-into.js";
 
 /** Texels of a side, where the device takes as many. */
@@ -44,6 +54,41 @@ function frustumBox(clipFromAsset: Matrix4, frameFromAsset: Matrix4): Box3 | nul
     );
   return [...box.min.toArray(), ...box.max.toArray()].every(Number.isFinite) ? box : null;
 }
+
+/** What throws shadows: all of a geometry, or as much of it as is there. */
+export interface Caster {
+  geometry: BufferGeometry;
+  coverage: Coverage;
+  texture: Texture | null;
+}
+
+/** Depth of what is there alone. `number`: as the surface's own. */
+function gapsMaterial(
+  { coverage, texture }: Caster,
+  number: number,
+  clipFromAsset: IUniform<Matrix4>,
+): RawShaderMaterial {
+  const begin = `precision highp float;\nprecision highp int;\n#define LAMBENT_MAP ${texture ? 1 : 0}\n`;
+  const parts = [baseColor, coverageGlsl, texture ? baseColorMap : "", sunMapCutFrag];
+  return new RawShaderMaterial({
+    ...kDepthAlone,
+    vertexShader: `precision highp float;\n${sunMapCutVert}`,
+    fragmentShader: begin + parts.join("\n"),
+    uniforms: {
+      clipFromAsset,
+      ...coverageUniforms(coverage, number),
+      ...(texture && mapUniforms(texture)),
+    },
+  });
+}
+
+const kDepthAlone = {
+  glslVersion: GLSL3,
+  side: DoubleSide,
+  depthFunc: LessDepth,
+  colorWrite: false,
+  blending: NoBlending,
+} as const;
 
 /** Where a map lies. */
 interface Placement {
@@ -105,24 +150,26 @@ export class SunMap {
   /** Of all that throws shadows. */
   readonly bounds = new Box3();
   private readonly material = new RawShaderMaterial({
-    glslVersion: GLSL3,
+    ...kDepthAlone,
     vertexShader: `precision highp float;\n${sunMapVert}`,
     fragmentShader: `precision highp float;\n${sunMapFrag}`,
     uniforms: { clipFromAsset: { value: new Matrix4() } },
-    side: DoubleSide,
-    depthFunc: LessDepth,
-    colorWrite: false,
-    blending: NoBlending,
   });
+  private readonly gaps: RawShaderMaterial[] = [];
   private done = "";
 
-  /** @param geometries of all that throws shadows, in one frame: the asset's */
-  constructor(geometries: readonly BufferGeometry[]) {
+  /** @param casters all that throws shadows, in one frame: the asset's */
+  constructor(casters: readonly Caster[]) {
     this.scene.matrixWorldAutoUpdate = false;
-    for (const geometry of geometries) {
+    for (const [number, caster] of casters.entries()) {
+      const { geometry, coverage } = caster;
       if (!geometry.boundingBox) geometry.computeBoundingBox();
       this.bounds.union(geometry.boundingBox!);
-      const mesh = new Mesh(geometry, this.material);
+      const clipFromAsset = this.material.uniforms.clipFromAsset;
+      const whole = !hasGaps(coverage);
+      const material = whole ? this.material : gapsMaterial(caster, number, clipFromAsset);
+      if (!whole) this.gaps.push(material);
+      const mesh = new Mesh(geometry, material);
       mesh.frustumCulled = false;
       this.scene.add(mesh);
     }
@@ -153,7 +200,7 @@ export class SunMap {
       .makeTranslation(-1, -1, -1)
       .scale(new Vector3(2 / side, 2 / side, 2));
     this.material.uniforms.clipFromAsset.value.multiplyMatrices(clipFromMap, mapFromAsset);
-    this.material.uniformsNeedUpdate = true;
+    for (const material of [this.material, ...this.gaps]) material.uniformsNeedUpdate = true;
     renderInto(renderer, this.scene, this.camera, target, true);
     this.done = state;
   }
@@ -168,7 +215,7 @@ export class SunMap {
 
   dispose(): void {
     this.forget();
-    this.material.dispose();
+    for (const material of [this.material, ...this.gaps]) material.dispose();
   }
 }
 

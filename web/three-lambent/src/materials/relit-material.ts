@@ -2,11 +2,9 @@
 // tone mapping and colour space follow, as for its own materials.
 
 import {
-  ClampToEdgeWrapping,
   DoubleSide,
   Matrix3,
   Matrix4,
-  MirroredRepeatWrapping,
   ShaderMaterial,
   Vector2,
   Vector3,
@@ -20,6 +18,7 @@ import {
 import {
   baseColor,
   baseColorMap,
+  coverage,
   incident,
   incidentTexture,
   lobe,
@@ -42,6 +41,7 @@ import {
   viewSquare,
 } from "../generated/shaders.js";
 import { airSource, type AirMode } from "./air-source.js";
+import { mapUniforms } from "./coverage.js";
 import { environmentGlsl } from "./environment-uniforms.js";
 import { eachGroup, incidentGroups, responseMacros } from "./group-macros.js";
 
@@ -62,6 +62,8 @@ export interface SurfaceShape {
   sunShare?: boolean;
   /** What it is seen through. */
   air?: AirMode;
+  /** It may be there in parts alone. */
+  gaps?: boolean;
   map: Texture | null;
   colored: boolean;
   uv: boolean;
@@ -104,6 +106,8 @@ export class RelitMaterial extends ShaderMaterial {
   override readonly type: string = "LambentRelitMaterial";
   /** Sub-samples of a pixel that the caller adds up: what is filtered is as much narrower. */
   samples = 1;
+  /** Which of them comes next. */
+  sample = 0;
 
   constructor(vertex: string, fragment: string, uniforms: Record<string, IUniform>) {
     super({
@@ -138,15 +142,12 @@ export class RelitMaterial extends ShaderMaterial {
       eye.value.set(c[12], c[13], c[14], 1).applyMatrix4(inverse);
       pixelWidth.value.set(width, 0);
     }
+    if (this.uniforms.veil) this.uniforms.veil.value[1] = this.sample;
     worldFromAsset.value.setFromMatrix4(object.matrixWorld);
     const scale = object.matrixWorld.getMaxScaleOnAxis();
     if (scale > 0) worldFromAsset.value.multiplyScalar(1 / scale);
     this.uniformsNeedUpdate = true;
   }
-}
-
-function wrapRule(wrapping: number): number {
-  return wrapping === ClampToEdgeWrapping ? 1 : wrapping === MirroredRepeatWrapping ? 2 : 0;
 }
 
 /** A surface without meso-structure. Uniforms of its results are the caller's to set. */
@@ -173,6 +174,7 @@ export function makeSurfaceMaterial(
     ALBEDO_OUTSIDE: flag(shape.albedoOutside),
     SUN: sun,
     SUN_SHARE: flag(shape.sunShare),
+    ALPHA: flag(shape.gaps),
   });
   const light = glossy ? incidentDefines(coefficients, vertices && !fetch) : "";
   const parts = [
@@ -183,6 +185,7 @@ export function makeSurfaceMaterial(
     shadingNormal,
     shadingPoint,
     baseColor,
+    shape.gaps ? coverage : "",
     map ? baseColorMap : "",
     shape.kind === "texels" ? texelReceivers : "",
     sun === 2 ? sunShadow : "",
@@ -194,10 +197,7 @@ export function makeSurfaceMaterial(
   const vertexParts = [common, light, glossy ? incidentTexture : "", surfaceVert];
   const material = new RelitMaterial(vertexParts.join("\n"), parts.join("\n"), {
     reflectance: { value: new Vector3(1, 1, 1) },
-    ...(map && {
-      baseColorMap: { value: map },
-      baseColorWrap: { value: Int32Array.of(wrapRule(map.wrapS), wrapRule(map.wrapT)) },
-    }),
+    ...(map && mapUniforms(map)),
     ...uniforms,
   });
   material.vertexColors = shape.colored;
@@ -216,6 +216,7 @@ export function makePatchMaterial(
     GLOSSY: 0,
     PATCH: 1,
     SUN_SHARE: 0,
+    ALPHA: 0,
     FETCH: flag(shape.fetch),
     UV: 1,
     COLOR: 0,

@@ -102,9 +102,11 @@ export function sceneGlb(
 
 /** A PNG of 8-bit RGB; color(x, y) → [r, g, b]. */
 export function png(width, height, color) {
-  const rows = Buffer.alloc(height * (1 + 3 * width));
+  const channels = color(0, 0).length;
+  const line = 1 + channels * width;
+  const rows = Buffer.alloc(height * line);
   for (let y = 0; y < height; ++y)
-    for (let x = 0; x < width; ++x) rows.set(color(x, y), y * (1 + 3 * width) + 1 + 3 * x);
+    for (let x = 0; x < width; ++x) rows.set(color(x, y), y * line + 1 + channels * x);
   const table = Array.from({ length: 256 }, (_, n) => {
     let c = n;
     for (let k = 0; k < 8; ++k) c = c & 1 ? 0xedb88320 ^ (c >>> 1) : c >>> 1;
@@ -123,7 +125,7 @@ export function png(width, height, color) {
   const header = Buffer.alloc(13);
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
-  header.set([8, 2, 0, 0, 0], 8);
+  header.set([8, channels === 4 ? 6 : 2, 0, 0, 0], 8);
   return Buffer.concat([
     Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a]),
     chunk("IHDR", header),

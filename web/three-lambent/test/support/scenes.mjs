@@ -159,6 +159,26 @@ export const sheetScene = (() => {
   );
 })();
 
+/** A leaf with holes, of two sides, and half a veil before a ball, over a floor. */
+export const leafScene = sceneGlb(
+  [
+    floor({ name: "leaf", half: 1, y: 0.9, material: 0, cells: 4 }),
+    ball({ name: "ball", center: [0.2, 0.4, 0], radius: 0.3, material: 1 }),
+    floor({ half: 1.5, material: 1 }),
+  ],
+  [
+    { ...matt([0.4, 0.8, 0.3], 0), doubleSided: true, alphaMode: "MASK", alphaCutoff: 0.4 },
+    matt([0.7, 0.7, 0.7]),
+  ],
+  [
+    png(32, 32, (x, y) => {
+      const hole = (x % 16) - 8;
+      const away = Math.hypot(hole + 0.5, (y % 16) - 7.5);
+      return [255, 200 + x, 100 + 4 * y, Math.min(255, 40 * away)];
+    }),
+  ],
+);
+
 /** What a patch is spread over. */
 export const ballScene = sceneGlb(
   [
