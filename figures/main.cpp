@@ -6,7 +6,7 @@
 //         biscale-figure5 biscale-figure6 biscale-vase biscale-filter biscale-encodings
 //         biscale-rtt-methods capture-projection capture-figure5 sky-meridian sky-accuracy
 //         sky-optical-lengths sky-chromaticity sky-compact sky-preetham sky-aerial sky-24-hours
-//         sun-shadow
+//         sun-shadow refinement
 //   --suns: the Sun's zenith angles, degrees, of sky-accuracy; an exact sky takes minutes.
 #include <fmt/format.h>
 
@@ -22,6 +22,7 @@
 #include "figures/biscale.h"
 #include "figures/capture.h"
 #include "figures/pictures.h"
+#include "figures/refinement.h"
 #include "figures/sky.h"
 #include "figures/sun_shadow.h"
 
@@ -70,7 +71,8 @@ int main(int argc, char** argv) {
       {"sky-preetham", skyPreetham},
       {"sky-aerial", skyAerial},
       {"sky-24-hours", sky24Hours},
-      {"sun-shadow", sunShadow}};
+      {"sun-shadow", sunShadow},
+      {"refinement", refinement}};
   Studio studio;
   std::vector<std::string> words(argv + 1, argv + argc), wanted;
   std::vector<std::string> places;

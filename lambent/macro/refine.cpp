@@ -34,6 +34,8 @@ constexpr float kLeastOfFeature = 1.0f / 128.0f;
 /// Times the shortest edge that is cut: triangles with buried corners are cut to this size for
 /// them, and smaller ones only for what their other corners miss.
 constexpr double kSmallAtContacts = 4.0;
+/// Side of a patch over which the error is a root mean square, times the shortest edge.
+constexpr double kWholeOfLeast = 32.0;
 /// In one round those triangles are cut that matter at least so much of what the first one does.
 constexpr double kLeastOfFirst = 1.0 / 16.0;
 
@@ -73,10 +75,17 @@ struct Sample {
   Sight sight;
 };
 
+/// e² at the places of a triangle that were looked at.
+struct SquaredError {
+  float mean = -1.0f;
+
+  bool isKnown() const { return mean >= 0.0f; }
+};
+
 /// A triangle that is to be cut, and how much that matters.
 struct Candidate {
   TriangleId id;
-  double weight;  ///< e² · area
+  double weight;  ///< mean of e² · area
 };
 
 class Refinement {
@@ -94,7 +103,7 @@ class Refinement {
     middles_.resize(scene.meshes.size());
     vertices_.resize(scene.meshes.size());
     for (std::size_t m = 0; m < scene.meshes.size(); ++m)
-      squared_.emplace_back(scene.meshes[m].triangles.size(), kUnknown);
+      squared_.emplace_back(scene.meshes[m].triangles.size());
   }
 
   Status begin(const PlacedReceivers& receivers) {
@@ -121,6 +130,7 @@ class Refinement {
     for (std::size_t k = 0; k < samples_.size(); ++k) samples_[k].sight = (*sights)[k];
     leastEdge_ = drawn.feature > 0.0f ? kLeastOfFeature * drawn.feature
                                       : scene::bounds(scene_).diagonal() / 512.0f;
+    wholeArea_ = std::pow(kWholeOfLeast * double(leastEdge_), 2);
     return Status::ok();
   }
 
@@ -129,7 +139,7 @@ class Refinement {
     std::vector<TriangleId> unknown;
     for (std::uint32_t m = 0; m < scene_.meshes.size(); ++m)
       for (std::uint32_t t = 0; isLookedAt_[m] && t < squared_[m].size(); ++t)
-        if (squared_[m][t] == kUnknown) unknown.push_back({m, t});
+        if (!squared_[m][t].isKnown()) unknown.push_back({m, t});
     if (Status looked = lookAtMiddles(unknown); !looked) return looked;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> inside;  // triangle, sample
     for (std::uint32_t k = 0; k < samples_.size(); ++k)
@@ -150,13 +160,13 @@ class Refinement {
     const double most = options_.error * options_.error;
     for (std::uint32_t m = 0; m < scene_.meshes.size(); ++m)
       for (std::uint32_t t = 0; isLookedAt_[m] && t < squared_[m].size(); ++t) {
-        if (!(squared_[m][t] > most)) continue;
         const int longest = edges.longestOf(m, t);
         if (longest < 0) continue;
         const std::uint32_t edge = edges.ofTriangle[m][t][std::size_t(longest)];
         if (!(edges.lengths[edge] > leastEdge_)) continue;
         const double area = 0.5 * Corners(scene_.meshes[m], t).cross().norm();
-        found.push_back({{m, t}, squared_[m][t] * area});
+        if (!(squared_[m][t].mean * std::min(area, wholeArea_) > most * wholeArea_)) continue;
+        found.push_back({{m, t}, squared_[m][t].mean * area});
       }
     std::stable_sort(found.begin(), found.end(),
                      [](const Candidate& a, const Candidate& b) { return a.weight > b.weight; });
@@ -169,7 +179,7 @@ class Refinement {
   /// Cuts at marked edges, and keeps what is known.
   void cut(const scene::SceneEdges& edges, const std::vector<std::uint8_t>& marks) {
     scene::SplitScene split = scene::splitEdges(scene_, edges, marks);
-    std::vector<std::vector<float>> squared;
+    std::vector<std::vector<SquaredError>> squared;
     std::vector<std::vector<std::uint32_t>> firstChild;
     for (std::uint32_t m = 0; m < scene_.meshes.size(); ++m) {
       const std::vector<std::uint32_t>& parents = split.parentOf[m];
@@ -179,7 +189,7 @@ class Refinement {
       squared.emplace_back();
       for (const std::uint32_t p : parents) {
         const bool whole = firstChild[m][p + 1] - firstChild[m][p] == 1;
-        squared[m].push_back(whole ? squared_[m][p] : kUnknown);
+        squared[m].push_back(whole ? squared_[m][p] : SquaredError());
       }
       if (!isLookedAt_[m]) continue;
       for (const scene::MiddleVertex& middle : split.middles[m]) {
@@ -205,8 +215,6 @@ class Refinement {
   scene::Scene take() { return std::move(scene_); }
 
  private:
-  static constexpr float kUnknown = -1.0f;
-
   Result<std::vector<Sight>> look(const std::vector<Spot>& spots) const {
     return runner_.map({"refine", "points"}, work::Chunks(spots.size()), SightTest::Scratch(),
                        [&](const work::Chunk& chunk, SightTest::Scratch& scratch) {
@@ -242,26 +250,26 @@ class Refinement {
     return Status::ok();
   }
 
-  /// The largest squared error that is seen in a triangle.
-  float errorOf(const TriangleId& id,
-                const std::vector<std::pair<std::uint64_t, std::uint32_t>>& inside,
-                SightTest::Scratch& scratch) const {
+  SquaredError errorOf(const TriangleId& id,
+                       const std::vector<std::pair<std::uint64_t, std::uint32_t>>& inside,
+                       SightTest::Scratch& scratch) const {
     const auto [m, t] = id;
     const scene::Mesh& mesh = scene_.meshes[m];
     const scene::Triangle& triangle = mesh.triangles[t];
     const Corners corners(mesh, t);
     const Vec3d cross = corners.cross();
-    if (!(cross.norm() > 0.0)) return 0.0f;
+    if (!(cross.norm() > 0.0)) return {0.0f};
     const Vec3 plane = cross.normalized().cast<float>();
     const std::array<const Sight*, 3> seen = {
         &vertices_[m][triangle[0]], &vertices_[m][triangle[1]], &vertices_[m][triangle[2]]};
     // Where bodies touch, buried corners are dark beside what is seen: cut, but not for ever.
     const bool isSmall = corners.longestEdge() < kSmallAtContacts * leastEdge_;
-    double worst = 0.0;
+    double sum = 0.0, count = 0.0;
     const auto compare = [&](const Sight& here, const Vec3& weights) {
       if (here.buried) return;
       const Vec3 used = isSmall ? exposedWeights(seen, weights) : weights;
-      worst = std::max(worst, test_.squaredError(here, seen, used, plane, scratch));
+      const double error = test_.squaredError(here, seen, used, plane, scratch);
+      sum += std::max(0.0, error), count += 1.0;
     };
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3 weights = Vec3::Constant(0.5f);
@@ -277,7 +285,7 @@ class Refinement {
       const Sample& sample = samples_[at->second];
       compare(sample.sight, corners.weightsOf(sample.position).cast<float>());
     }
-    return static_cast<float>(worst);
+    return {static_cast<float>(sum / std::max(1.0, count))};
   }
 
   scene::Scene scene_;
@@ -288,9 +296,10 @@ class Refinement {
   std::vector<bool> isLookedAt_;                                   ///< [mesh]
   std::vector<std::vector<Sight>> vertices_;                       ///< [mesh][vertex]
   std::vector<std::unordered_map<std::uint64_t, Sight>> middles_;  ///< [mesh], of edges, by ends
-  std::vector<std::vector<float>> squared_;  ///< [mesh][triangle]: largest e², or kUnknown
+  std::vector<std::vector<SquaredError>> squared_;                 ///< [mesh][triangle]
   std::vector<Sample> samples_;
   float leastEdge_ = 0.0f;
+  double wholeArea_ = 0.0;  ///< m²: a smaller triangle may be further off, by its share of this
 };
 
 /// Marks, closed, of the longest edges of the first `count` candidates.

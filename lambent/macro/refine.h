@@ -29,9 +29,11 @@ struct Refined {
   bool spent = false;     ///< the budget ended it, and not the error
 };
 
-/// The scene with triangles cut at their longest edges, first where the squared error times the
-/// area is largest, until the error is met wherever it is looked at, edges are as short as a 128th
-/// of what surfaces are apart from each other, or the budget is used. Surfaces, materials and what
+/// The scene with triangles cut at their longest edges, first where the mean squared error times the
+/// area is largest, until the error is met, edges are as short as a 128th of what surfaces are apart
+/// from each other (the median of what rays between them measure), or the budget is used. The error
+/// is a root mean square over a triangle, or, for a small one, over a patch with sides of a quarter
+/// of that distance, of which the triangle is the only part that errs. Surfaces, materials and what
 /// is interpolated over them stay as they are (scene/split_edges.h). Meshes whose receivers are
 /// texels or which have none are cut only where their edges are those of others. `rays` and
 /// `receivers` are the scene's. BadUsage for options out of range; Cancelled.
