@@ -31,9 +31,6 @@ using transport::PlacedReceivers;
 
 constexpr std::size_t kSamples = 8192;
 constexpr float kLeastOfFeature = 1.0f / 128.0f;
-/// Times the shortest edge that is cut: triangles with buried corners are cut to this size for
-/// them, and smaller ones only for what their other corners miss.
-constexpr double kSmallAtContacts = 4.0;
 /// Side of a patch over which the error is a root mean square, times the shortest edge.
 constexpr double kWholeOfLeast = 32.0;
 /// In one round those triangles are cut that matter at least so much of what the first one does.
@@ -55,9 +52,6 @@ struct Corners {
       at[k] = mesh.positions[mesh.triangles[triangle][k]].cast<double>();
   }
   Vec3d cross() const { return (at[1] - at[0]).cross(at[2] - at[0]); }
-  double longestEdge() const {
-    return std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
-  }
   /// Of a point in the plane; zero for a triangle without area.
   Vec3d weightsOf(const Vec3d& point) const {
     const Vec3d whole = cross();
@@ -262,12 +256,11 @@ class Refinement {
     const Vec3 plane = cross.normalized().cast<float>();
     const std::array<const Sight*, 3> seen = {
         &vertices_[m][triangle[0]], &vertices_[m][triangle[1]], &vertices_[m][triangle[2]]};
-    // Where bodies touch, buried corners are dark beside what is seen: cut, but not for ever.
-    const bool isSmall = corners.longestEdge() < kSmallAtContacts * leastEdge_;
     double sum = 0.0, count = 0.0;
     const auto compare = [&](const Sight& here, const Vec3& weights) {
       if (here.buried) return;
-      const Vec3 used = isSmall ? exposedWeights(seen, weights) : weights;
+      // Where bodies touch, a bake sets buried corners so that what is seen is right.
+      const Vec3 used = exposedWeights(seen, weights);
       const double error = test_.squaredError(here, seen, used, plane, scratch);
       sum += std::max(0.0, error), count += 1.0;
     };
