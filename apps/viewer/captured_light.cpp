@@ -8,9 +8,8 @@
 namespace lambent::viewer {
 
 Status CapturedLight::attach(render::LiveRenderer& renderer, const asset::Asset& asset) {
-  capture::MovingScene scene =
-      given_ ? capture::about(*given_, asset.scene.origin)
-             : capture::demoSurroundings(scene::bounds(asset.scene));
+  capture::MovingScene scene = given_ ? capture::about(*given_, asset.scene.origin)
+                                      : capture::demoSurroundings(scene::bounds(asset.scene));
   const capture::Blending blending =
       capture::blendOver(asset, capture::samplePoints(asset.scene, samples_).points);
   render::CaptureOptions options;

@@ -38,7 +38,7 @@ struct Resolution {
   /// geometric series, cell by cell, and in the darkest twilight, where each order is some .63 of the one
   /// before, that is good to a twenty-fifth of this.
   double tolerance = 0.025;
-  int orders = 40;          ///< at most
+  int orders = 40;  ///< at most
   /// Zenith angles of the Sun, rad, that are looked up: a ray sees places up to 8° on, and light has
   /// come from farther.
   double sunFrom = 0, sunTo = 4;
