@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 
 #include "apps/lambent/arguments.h"
 #include "lambent/macro/refine.h"
@@ -29,7 +30,15 @@ Status cutTriangles(const RefineArguments& arguments, const SceneToBake& bake,
   macro::RefineOptions refine;
   refine.error = arguments.error, refine.budget = arguments.budget;
   refine.threads = look.threads;
-  auto refined = macro::refine(bake.scene, bake.rays, bake.receivers, refine, console.progress());
+  // Rays that slip through edges are others for every kind of transfer; receivers are not.
+  std::optional<trace::RayScene> watertight;
+  if (bake.edges != trace::Edges::Watertight) {
+    auto made = trace::RayScene::build(bake.scene, trace::Edges::Watertight);
+    if (!made) return made.error();
+    watertight.emplace(std::move(*made));
+  }
+  auto refined = macro::refine(bake.scene, watertight ? *watertight : bake.rays, bake.receivers,
+                               refine, console.progress());
   if (!refined) return refined.error();
   looked.added = refined->added;
   if (refined->spent)
@@ -70,7 +79,7 @@ void RefineArguments::addTo(CLI::App& app) {
            error = *given;
          },
          "Cut triangles where shadows fall between vertices, until light there is off by no more "
-         "than this: 0.02 of what a white surface sends back under an even sky. The surface stays "
+         "than this: 0.01 of what a white surface sends back under an even sky. The surface stays "
          "as it is, and the asset holds the finer mesh; meshes of --texels stay. Without this "
          "option it is done where triangles are so large that shadows would be missed; 'off': "
          "never")

@@ -17,8 +17,8 @@ enum class Refining { LargeTriangles, Always, Never };
 
 struct RefineArguments {
   Refining when = Refining::LargeTriangles;
-  double error = 0.02;         ///< macro::RefineOptions::error
-  std::size_t budget = 50000;  ///< vertices to add, at most
+  double error = 0.01;         ///< macro::RefineOptions::error
+  std::size_t budget = 20000;  ///< vertices to add, at most
 
   /// --refine, --refine-budget.
   void addTo(CLI::App& app);

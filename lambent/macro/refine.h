@@ -16,8 +16,8 @@ namespace lambent::macro {
 struct RefineOptions {
   /// How far interpolated light may be off, as InterpolationError counts it: radiance of a white
   /// surface under skies whose radiance has a root mean square of 1. > 0.
-  double error = 0.02;
-  std::size_t budget = 50000;  ///< vertices to add, at most
+  double error = 0.01;
+  std::size_t budget = 20000;  ///< vertices to add, at most
   int bands = 5;               ///< of the light, 1 … 10
   std::uint64_t seed = 0;
   int threads = 0;  ///< 0: as many as the machine has. No effect on the result

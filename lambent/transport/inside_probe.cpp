@@ -12,6 +12,8 @@ namespace lambent::transport {
 namespace {
 
 constexpr double kMostBacks = 1.0 / 3.0;
+/// Of some 12 rays.
+constexpr double kSurelyNot = 0.1, kSurely = 0.75;
 
 }  // namespace
 
@@ -42,8 +44,10 @@ double InsideProbe::shareOfBacks(const trace::DirectionSet& directions, const Ve
 
 bool InsideProbe::seesBacks(const Vec3& origin, const Vec3& normal,
                             trace::CastResult& scratch) const {
-  return meetsBack(origin, normal) && shareOfBacks(few_, origin, normal, scratch) > 0.1 &&
-         shareOfBacks(many_, origin, normal, scratch) > kMostBacks;
+  if (!meetsBack(origin, normal)) return false;
+  const double share = shareOfBacks(few_, origin, normal, scratch);
+  if (share < kSurelyNot || share > kSurely) return share > kSurely;
+  return shareOfBacks(many_, origin, normal, scratch) > kMostBacks;
 }
 
 }  // namespace lambent::transport

@@ -14,7 +14,7 @@ class InsideProbe {
   /// `rays` must outlive it.
   explicit InsideProbe(const trace::RayScene& rays);
 
-  /// By four rays; by some 12 where one of those meets a back, and by some 256 where several do.
+  /// By four rays; by some 12 where one of those meets a back, and by some 256 where that leaves doubt.
   /// work::FlushDenormals must be held.
   bool seesBacks(const Vec3& origin, const Vec3& normal, trace::CastResult& scratch) const;
 

@@ -15,6 +15,9 @@ constexpr std::size_t kWitnesses = 3;  ///< at most, for each piece
 /// A place at which buried corners weigh less says nothing about them.
 constexpr float kLeastWeight = 0.02f;
 
+/// Of a piece all of whose corners are buried.
+constexpr std::size_t kFewPlaces = 6;
+
 struct Witness {
   scene::SurfacePoint point;
   Interpolated place;  ///< its witness's number is not yet known
@@ -31,16 +34,31 @@ std::vector<Witness> witnessesIn(const scene::Scene& scene, const trace::RayScen
     std::size_t at;
     scene::SurfacePoint point;
   };
+  const auto isSeen = [&](const scene::SurfacePoint& point) {
+    return !probe.seesBacks(point.position + rays.offset() * point.normal, point.normal, scratch);
+  };
+  const auto pointAt = [&](const PlaceInPiece& at) {
+    return scene::surfaceAt(scene, mesh, at.triangle, at.u, at.v);
+  };
+  // Most pieces all of whose corners are buried lie deep inside: a few places tell.
+  const bool allBuried = std::all_of(piece.begin(), piece.end(), [&](const PlaceInPiece& at) {
+    return std::all_of(at.weights.begin(), at.weights.end(),
+                       [&](const auto& weight) { return buried[weight.first] != 0; });
+  });
+  if (allBuried) {
+    bool any = false;
+    for (std::size_t k = 0; k < kFewPlaces && !any && !piece.empty(); ++k)
+      any = isSeen(pointAt(piece[(2 * k + 1) * piece.size() / (2 * kFewPlaces)]));
+    if (!any) return {};
+  }
   std::vector<Seen> seen;
   for (std::size_t k = 0; k < piece.size(); ++k) {
     float weight = 0.0f;
     for (const auto& [receiver, w] : piece[k].weights)
       if (buried[receiver]) weight += w;
     if (weight < kLeastWeight) continue;
-    const scene::SurfacePoint point =
-        scene::surfaceAt(scene, mesh, piece[k].triangle, piece[k].u, piece[k].v);
-    if (!probe.seesBacks(point.position + rays.offset() * point.normal, point.normal, scratch))
-      seen.push_back({weight, k, point});
+    const scene::SurfacePoint point = pointAt(piece[k]);
+    if (isSeen(point)) seen.push_back({weight, k, point});
   }
   std::stable_sort(seen.begin(), seen.end(),
                    [](const Seen& a, const Seen& b) { return a.buriedWeight > b.buriedWeight; });

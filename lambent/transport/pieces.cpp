@@ -1,6 +1,7 @@
 #include "lambent/transport/pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lambent/scene/texel_map.h"
@@ -35,6 +36,18 @@ std::vector<Vec2> middles() {
   return all;
 }
 
+/// The corner to count from: the same one however a file turns the triangle.
+std::size_t firstCornerOf(const scene::Mesh& mesh, const scene::Triangle& corners) {
+  const auto placeOf = [&](std::size_t k) {
+    const Vec3& p = mesh.positions[corners[k]];
+    return std::array<float, 3>{p.x(), p.y(), p.z()};
+  };
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (placeOf(k) < placeOf(first)) first = k;
+  return first;
+}
+
 std::vector<std::vector<PlaceInPiece>> trianglesAt(const scene::Mesh& mesh,
                                                    const PlacedReceivers::PerMesh& place,
                                                    std::span<const std::uint8_t> chosen) {
@@ -46,10 +59,14 @@ std::vector<std::vector<PlaceInPiece>> trianglesAt(const scene::Mesh& mesh,
                      [&](std::uint32_t v) { return chosen[place.first + v] != 0; }))
       continue;
     std::vector<PlaceInPiece>& piece = pieces.emplace_back();
+    const std::size_t first = firstCornerOf(mesh, corners);
     for (const Vec2& at : places) {
-      PlaceInPiece& here = piece.emplace_back(PlaceInPiece{t, at.x(), at.y(), {}});
-      const float weights[3] = {1.0f - at.x() - at.y(), at.x(), at.y()};
-      for (int k = 0; k < 3; ++k) addWeight(here, place.first + corners[k], weights[k]);
+      const float inTurn[3] = {1.0f - at.x() - at.y(), at.x(), at.y()};
+      float weights[3];
+      for (std::size_t k = 0; k < 3; ++k) weights[(first + k) % 3] = inTurn[k];
+      PlaceInPiece& here = piece.emplace_back(PlaceInPiece{t, weights[1], weights[2], {}});
+      for (std::size_t k = 0; k < 3; ++k)
+        addWeight(here, place.first + corners[(first + k) % 3], inTurn[k]);
     }
   }
   return pieces;

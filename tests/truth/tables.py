@@ -34,7 +34,7 @@ def apart(rows, truth, where):
 
 def bounced_colour(tool):
     """The wall over a floor of one quad with a red carpet and a dark rim, against paths."""
-    asset, _ = tool.baked("carpet.glb", ("--bounces", "2"))
+    asset, _ = tool.baked("carpet.glb", ("--bounces", "2", "--refine", "off"))
     rows = tool.shaded(asset, "uniform")
     truth = traced(tool, "carpet.glb", "--light", "uniform", "--bounces", "2", "--spp", "256")
 
