@@ -1,7 +1,8 @@
 #include "lambent/atlas/chart_patch.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "lambent/math/union_find.h"
 
 namespace lambent::atlas {
 namespace {
@@ -9,21 +10,6 @@ namespace {
 /// A hole is closed if its border is below this share of the chart's outer border; a longer one
 /// makes an annulus, which is cut.
 constexpr double kHole = 0.3;
-
-struct Unions {
-  std::vector<std::uint32_t> parent;
-  explicit Unions(std::size_t count) : parent(count) {
-    std::iota(parent.begin(), parent.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-};
 
 double lengthOf(const std::vector<std::uint32_t>& loop, const std::vector<Vec3d>& positions) {
   double length = 0.0;
@@ -43,7 +29,7 @@ ChartPatch chartPatch(const WeldedSurface& surface, const Chart& chart,
   for (std::uint32_t i = 0; i < chart.size(); ++i) numberOf[chart[i]] = i;
 
   // Corners that meet across an edge inside of the chart are one vertex.
-  Unions corners(3 * chart.size());
+  math::UnionFind corners(3 * chart.size());
   std::size_t innerSides = 0;
   const auto across = [&](std::uint32_t i, int k) {
     const std::uint32_t n = surface.neighbours[chart[i]][k];
@@ -66,7 +52,7 @@ ChartPatch chartPatch(const WeldedSurface& surface, const Chart& chart,
   patch.triangles.resize(chart.size());
   for (std::uint32_t i = 0; i < chart.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      std::uint32_t& vertex = vertexOf[corners.find(3 * i + k)];
+      std::uint32_t& vertex = vertexOf[corners.rootOf(3 * i + k)];
       if (vertex == kNoTriangle) {
         vertex = static_cast<std::uint32_t>(patch.positions.size());
         patch.weldedVertex.push_back(surface.triangles[chart[i]][k]);

@@ -9,6 +9,7 @@
 #include "lambent/math/random.h"
 #include "lambent/math/sequences.h"
 #include "lambent/math/statistics.h"
+#include "lambent/math/union_find.h"
 
 namespace lambent::math {
 namespace {
@@ -215,6 +216,13 @@ TEST(Statistics, RunsMergeToTheWhole) {
   EXPECT_EQ(left.count(), whole.count());
   EXPECT_NEAR(left.mean(), whole.mean(), 1e-12);
   EXPECT_NEAR(left.variance(), whole.variance(), 1e-12);
+}
+
+TEST(UnionFind, ARootIsTheSmallestOfItsSet) {
+  UnionFind sets(6);
+  sets.join(5, 3), sets.join(4, 2), sets.join(3, 4);
+  for (const std::uint32_t i : {2u, 3u, 4u, 5u}) EXPECT_EQ(sets.rootOf(i), 2u);
+  for (const std::uint32_t i : {0u, 1u}) EXPECT_EQ(sets.rootOf(i), i);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/math/union_find.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/scene/weld.h"
 
@@ -15,25 +16,6 @@ constexpr double kFlat = 1e-3;
 /// Edges of more triangles than this join none of them: what hangs together there is nobody's wish,
 /// and looking at all pairs would take time without a bound.
 constexpr std::size_t kMostAtAnEdge = 8;
-
-/// Corner c is corner c % 3 of triangle c / 3.
-class CornerGroups {
- public:
-  explicit CornerGroups(std::size_t corners) : parents_(corners) {
-    for (std::size_t c = 0; c < corners; ++c) parents_[c] = std::uint32_t(c);
-  }
-  std::uint32_t rootOf(std::uint32_t c) {
-    while (parents_[c] != c) c = parents_[c] = parents_[parents_[c]];
-    return c;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = rootOf(a), b = rootOf(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
 
 struct Edge {
   std::uint64_t ends;    ///< smaller position's number above the larger one's
@@ -85,11 +67,12 @@ Facets facetsOf(const Mesh& mesh) {
 }
 
 /// Corners that share a normal: of one place, and of triangles that hang together across edges
-/// which bend by less than `angle`. Triangles without area bend nowhere.
-CornerGroups groupCorners(const Mesh& mesh, const Facets& facets, double angle) {
+/// which bend by less than `angle`. Triangles without area bend nowhere. Corner c is corner c % 3 of
+/// triangle c / 3.
+math::UnionFind groupCorners(const Mesh& mesh, const Facets& facets, double angle) {
   const double least = std::cos(std::min(std::max(angle, kFlat), 3.14159265358979));
   const std::vector<Edge> edges = edgesOf(mesh, weldPositions(mesh));
-  CornerGroups groups(3 * mesh.triangles.size());
+  math::UnionFind groups(3 * mesh.triangles.size());
   const auto smooth = [&](const Edge& a, const Edge& b) {
     const Vec3d &m = facets.normals[a.corner / 3], &n = facets.normals[b.corner / 3];
     return a.upwards != b.upwards && (m.isZero(0.0) || n.isZero(0.0) || m.dot(n) >= least);
@@ -119,7 +102,7 @@ void appendCopy(std::vector<T>& values, std::uint32_t of) {
 
 std::size_t creaseNormals(Mesh& mesh, float angle) {
   const Facets facets = facetsOf(mesh);
-  CornerGroups groups = groupCorners(mesh, facets, double(angle));
+  math::UnionFind groups = groupCorners(mesh, facets, double(angle));
   const auto corners = std::uint32_t(3 * mesh.triangles.size());
   std::vector<Vec3d> sums(corners, Vec3d::Zero());  // by root
   for (std::uint32_t c = 0; c < corners; ++c) {

@@ -1,8 +1,8 @@
 #include "lambent/transport/buried.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "lambent/math/union_find.h"
 #include "lambent/transport/inside_probe.h"
 #include "lambent/transport/neighbours.h"
 
@@ -13,25 +13,6 @@ namespace {
 /// How far a step from receiver to receiver is lifted off the surface, over its length: curved
 /// surfaces bulge between their receivers, and must not be in the way themselves.
 constexpr float kLift = 0.05f;
-
-/// Patches of receivers, joined pair by pair.
-class Patches {
- public:
-  explicit Patches(std::size_t receivers) : parents_(receivers) {
-    std::iota(parents_.begin(), parents_.end(), 0u);
-  }
-  std::uint32_t rootOf(std::uint32_t r) {
-    while (parents_[r] != r) r = parents_[r] = parents_[parents_[r]];
-    return r;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = rootOf(a), b = rootOf(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
 
 /// Whether a step from one receiver to another goes through the front of a surface.
 bool entersBody(const trace::RayScene& rays, const PlacedReceivers& receivers, std::uint32_t from,
@@ -62,7 +43,7 @@ Result<std::vector<std::uint8_t>> findBuried(const scene::Scene& scene, const tr
   if (std::find(seesBacks.begin(), seesBacks.end(), 1) == seesBacks.end())
     return std::vector<std::uint8_t>();
 
-  Patches patches(receivers.size());
+  math::UnionFind patches(receivers.size());  // of receivers
   std::vector<std::uint32_t> steps(receivers.size(), 0), through(receivers.size(), 0);
   for (std::size_t m = 0; m < scene.meshes.size(); ++m)
     visitNeighbours(scene.meshes[m], receivers.meshes[m], [&](std::uint32_t a, std::uint32_t b) {

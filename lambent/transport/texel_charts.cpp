@@ -4,10 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <unordered_map>
 
+#include "lambent/math/union_find.h"
 #include "lambent/scene/texel_map.h"
 
 namespace lambent::transport {
@@ -96,19 +96,14 @@ std::vector<std::uint32_t> chartOfTexels(const scene::Mesh& mesh,
 
 std::vector<std::uint32_t> chartsOf(const scene::Mesh& mesh) {
   const std::vector<std::uint32_t> corners = weldCorners(mesh);
-  std::vector<std::uint32_t> parents(mesh.positions.size());
-  std::iota(parents.begin(), parents.end(), 0u);
-  const auto rootOf = [&](std::uint32_t c) {
-    while (parents[c] != c) c = parents[c] = parents[parents[c]];
-    return c;
-  };
+  math::UnionFind joined(mesh.positions.size());
   for (const scene::Triangle& t : mesh.triangles)
-    for (int k = 1; k < 3; ++k) parents[rootOf(corners[t[k]])] = rootOf(corners[t[0]]);
-  std::vector<std::uint32_t> numbers(parents.size(), kNobody), charts;
+    for (int k = 1; k < 3; ++k) joined.join(corners[t[k]], corners[t[0]]);
+  std::vector<std::uint32_t> numbers(mesh.positions.size(), kNobody), charts;
   charts.reserve(mesh.triangles.size());
   std::uint32_t count = 0;
   for (const scene::Triangle& t : mesh.triangles) {
-    std::uint32_t& number = numbers[rootOf(corners[t[0]])];
+    std::uint32_t& number = numbers[joined.rootOf(corners[t[0]])];
     if (number == kNobody) number = count++;
     charts.push_back(number);
   }
