@@ -57,8 +57,11 @@ TEST(GlPicture, EachSideOfASheetIsSeenFromWhereItFaces) {
     const auto picture = reference::relitPicture(
         asset, light::Environment::uniform(Rgb::Ones()).project(5), {}, camera, small(1));
     ASSERT_TRUE(picture);
-    for (std::size_t i = 0; i < picture->pixels.size(); ++i)
-      if (picture->alpha[i] == 1.0f) EXPECT_GT(picture->pixels[i].minCoeff(), 0.7f) << eye;
+    for (std::size_t i = 0; i < picture->pixels.size(); ++i) {
+      if (picture->alpha[i] == 1.0f) {
+        EXPECT_GT(picture->pixels[i].minCoeff(), 0.7f) << eye;
+      }
+    }
   }
 }
 

@@ -157,8 +157,8 @@ std::size_t reverseAgainstNeighbours(Mesh& mesh) {
         const Across& other = across[edge];
         closed = closed && other.triangle != kNoTriangle;
         if (other.triangle == kNoTriangle) continue;
-        const std::uint8_t side =
-            other.agrees ? sides[t] : (sides[t] == AsFirst ? AgainstFirst : AsFirst);
+        std::uint8_t side = sides[t];
+        if (!other.agrees) side = side == AsFirst ? AgainstFirst : AsFirst;
         twoSided = twoSided && (sides[other.triangle] == Unseen || sides[other.triangle] == side);
         if (sides[other.triangle] != Unseen) continue;
         sides[other.triangle] = side;
