@@ -1,8 +1,9 @@
 // A picture by one ray for each sub-sample. What is interpolated is what sloan2002precomputed §6
 // interpolates on the GPU: over a triangle (or between texels) the exit radiance of a diffuse
 // surface, and the lobe-convolved coefficients of transferred radiance of a glossy one, which are
-// evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows the
-// environment, unblocked: "a traditional environment map". With meso-structure it is the light that
+// evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows what the
+// mirrored ray meets, lit as anything that is seen, and the environment where that leaves; mirrors
+// show mirrors, a few in a row. With meso-structure it is the light that
 // arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003biscale §5). Under a
 // sharp Sun each sub-sample asks by one ray whether its own point of the Sun's disc is seen: rays
 // start where those of the path tracer do, and are blocked by fronts and backs alike.
@@ -25,14 +26,23 @@ namespace {
 
 using transfer::Numbers;
 constexpr int kMostSeenThrough = 256;  ///< seen through, in a row
+constexpr int kMostMirrors = 8;        ///< in a row; the last one shows the environment alone
 
 using Surface = transfer::Surface<Numbers>;
 using BiScale = transfer::BiScale<Numbers>;
 
-/// What a ray sees: radiance, and the share of it that something is before the background.
+/// What a ray sees: radiance, and the share of what is behind everything that is seen as well.
 struct SeenThrough {
   Rgb radiance = Rgb::Zero();
-  float coverage = 0.0f;
+  Rgb through = Rgb::Ones();
+};
+
+/// How a ray came to be.
+struct Sight {
+  const light::SunPoint* sun = nullptr;  ///< null without a sharp one
+  const ShadowedAir* shafts = nullptr;   ///< from the eye alone; null without
+  float distance = 0.0f;                 ///< from the eye to the ray's origin, by way of mirrors
+  int mirrors = 0;                       ///< on that way
 };
 
 struct LitScene {
@@ -56,24 +66,22 @@ struct LitScene {
            veils.throughput(rays, point.position + rays.offset() * point.normal, sun.direction);
   }
 
-  /// `sun`: null without a sharp one.
-  Rgb exitRadiance(const trace::Hit& hit, const Vec3& toViewer, const light::SunPoint* sun) const {
+  Rgb exitRadiance(const trace::Hit& hit, const Vec3& toViewer, const Sight& sight) const {
     if (hit.backFace) return Rgb::Zero();
     const scene::Scene& scene = asset.scene;
     const scene::Mesh& mesh = scene.meshes[hit.mesh];
     const scene::Material& material = scene.materials[mesh.material];
 
     const scene::SurfacePoint point = scene::surfaceAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
+    const float distance = sight.distance + hit.distance;
     const auto patch = patches.find(hit.mesh);
     if (patch != patches.end() && !material.isMirror())
-      return patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(hit.distance));
+      return patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(distance));
     const Rgb base = shade::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
     const Vec3 reflected = shade::mirrored(toViewer, point.normal);
-    if (material.isMirror()) {
-      const Rgb shown = environment.radiance(reflected);
+    if (material.isMirror())
       return material.mirror * base *
-             (options.air ? options.air->seenBehind(point.position, reflected, shown) : shown);
-    }
+             shownByMirror(point, reflected, {sight.sun, nullptr, distance, sight.mirrors + 1});
     const auto* surface = std::get_if<Surface>(&asset.transfer.meshes[hit.mesh]);
     if (!surface) return Rgb::Zero();
 
@@ -85,31 +93,42 @@ struct LitScene {
     const Rgb diffuse = lit.diffuseAt(at);
     Rgb sum =
         (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) + lit.glossyAt(at, reflected) * base;
-    if (!sun) return sum;
+    if (!sight.sun) return sum;
     if (const auto direct =
             shade::kindWithoutBounces(asset.transfer.meshes[hit.mesh], options.showing))
-      sum += sunlit(point, *direct, *sun);
+      sum += sunlit(point, *direct, *sight.sun);
     return sum;
   }
 
-  /// Nearest first, until nothing is seen through what was met. `sun`, `shafts`: null without.
-  SeenThrough seen(const scene::Ray& ray, const light::SunPoint* sun,
-                   const ShadowedAir* shafts) const {
+  Rgb shownByMirror(const scene::SurfacePoint& point, const Vec3& direction,
+                    const Sight& sight) const {
+    SeenThrough seen;
+    if (sight.mirrors <= kMostMirrors)
+      seen = this->seen({point.position + rays.offset() * point.normal, direction}, sight);
+    if (!(seen.through.maxCoeff() > 0.0f)) return seen.radiance;
+    const Rgb shown = environment.radiance(direction);
+    return seen.radiance +
+           seen.through *
+               (options.air ? options.air->seenBehind(point.position, direction, shown) : shown);
+  }
+
+  /// Nearest first, until nothing is seen through what was met.
+  SeenThrough seen(const scene::Ray& ray, const Sight& sight) const {
     SeenThrough out;
-    Rgb through = Rgb::Ones();
+    Rgb& through = out.through;
     float tNear = 0.0f;
     for (int passed = 0; passed < kMostSeenThrough; ++passed) {
       const std::optional<trace::Hit> hit = rays.closest(ray.origin, ray.direction, tNear);
       if (!hit) {
-        if (shafts && options.background)
-          out.radiance -= through * shafts->missing(ray, {}, sun->direction);
+        if (sight.shafts && options.background)
+          out.radiance -= through * sight.shafts->missing(ray, {}, sight.sun->direction);
         break;
       }
       const bool veil = veils.any() && veils.has(hit->mesh);
       const Rgb share = veil ? Rgb(through * veils.coverage(*hit)) : through;
-      Rgb radiance = exitRadiance(*hit, -ray.direction, sun);
+      Rgb radiance = exitRadiance(*hit, -ray.direction, sight);
       if (options.air) radiance = options.air->seen(ray.direction, hit->distance, radiance);
-      if (shafts) radiance -= shafts->missing(ray, hit->distance, sun->direction);
+      if (sight.shafts) radiance -= sight.shafts->missing(ray, hit->distance, sight.sun->direction);
       out.radiance += share * radiance;
       if (!veil) {
         through = Rgb::Zero();
@@ -119,7 +138,6 @@ struct LitScene {
       if (!(through.maxCoeff() > 1e-4f)) break;
       tNear = trace::Veils::beyond(*hit);
     }
-    out.coverage = 1.0f - through.mean();
     return out;
   }
 };
@@ -168,9 +186,9 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
         const Vec2& p = positions[i];
         const scene::Ray ray = scene::cameraRay(camera, width, height, x + p.x(), y + p.y());
         const SeenThrough seen =
-            lit.seen(ray, sun.empty() ? nullptr : &sun[i], shafts ? &*shafts : nullptr);
+            lit.seen(ray, {sun.empty() ? nullptr : &sun[i], shafts ? &*shafts : nullptr});
         sum += seen.radiance;
-        covered += double(seen.coverage);
+        covered += 1.0 - double(seen.through.mean());
       }
       image.at(x, y) = share * sum;
       image.alpha[std::size_t(y) * width + x] = float(covered / double(positions.size()));

@@ -91,6 +91,59 @@ TEST(RelitPicture, MirrorShowsTheEnvironment) {
   EXPECT_TRUE(image->at(16, 16).isApprox(seen, 0.02f));
 }
 
+// Behind a plane mirror stands the same scene turned over: what a camera sees there is what the camera
+// turned over sees of the scene itself.
+TEST(RelitPicture, PlaneMirrorShowsTheSceneTurnedOver) {
+  asset::Asset asset;
+  test::addMirror(asset, test::floor(Vec3::Zero(), 20.0f), Rgb::Constant(0.5f));
+  test::addDiffuse(asset, test::sphere(Vec3(0, 1.5f, 0), 1.0f, 32), {});
+  sh::RgbCoefficients light = uniformLight(2, Rgb::Ones());
+  light.channel(0)[sh::index(1, -1)] = 0.5f;
+  light.channel(1)[sh::index(1, 1)] = 0.5f;
+  const light::Environment sky = test::sky();
+  const scene::Camera camera = cameraAt(Vec3(2, 5, 6), Vec3(0, -1, 0));
+  PictureOptions options = small(65, 1);
+  const auto shown = relitPicture(asset, light, sky, camera, options);
+  ASSERT_TRUE(shown) << shown.error().message;
+
+  asset::Asset alone;
+  test::addDiffuse(alone, test::sphere(Vec3(0, 1.5f, 0), 1.0f, 32), {});
+  scene::Camera turnedOver = camera;
+  turnedOver.worldFromCamera = Vec4(1, -1, 1, 1).asDiagonal() * camera.worldFromCamera;
+  options.background = true;
+  const auto behind = relitPicture(alone, light, sky, turnedOver, options);
+  ASSERT_TRUE(behind) << behind.error().message;
+  const auto before = relitPicture(alone, light, sky, camera, small(65, 1));
+  ASSERT_TRUE(before) << before.error().message;
+  int mirrored = 0, far = 0;
+  for (std::size_t i = 0; i < shown->pixels.size(); ++i) {
+    if (before->alpha[i] > 0 || shown->alpha[i] == 0)
+      continue;  // the sphere itself, or past the mirror
+    ++mirrored;
+    far += (shown->pixels[i] - 0.5f * behind->pixels[i]).abs().maxCoeff() > 2e-3f;
+  }
+  EXPECT_GT(mirrored, 1000);
+  EXPECT_LE(far, 20);  // where a ray just meets or misses the sphere's outline
+}
+
+TEST(RelitPicture, MirrorsShowMirrorsAndEndSomewhere) {
+  asset::Asset asset;
+  const auto wall = [](float z, bool turned) {
+    scene::Mesh mesh = test::floor(Vec3::Zero(), 5.0f);
+    for (Vec3& p : mesh.positions) p = Vec3(p.x(), turned ? p.z() : -p.z(), z);
+    for (Vec3& n : mesh.normals) n = Vec3(0, 0, turned ? -1 : 1);
+    return mesh;
+  };
+  test::addMirror(asset, wall(-1, false), Rgb::Constant(0.5f));
+  test::addMirror(asset, wall(1, true), Rgb::Constant(0.5f));
+  const light::Environment everywhere = light::Environment::uniform(Rgb::Ones());
+  const auto image = relitPicture(asset, uniformLight(2, Rgb::Ones()), everywhere,
+                                  cameraAt(Vec3(0, 0, 0), Vec3(0, 0, -1)), small(9, 1));
+  ASSERT_TRUE(image) << image.error().message;
+  // Straight on, light leaves nowhere: the last mirror shows the environment.
+  EXPECT_NEAR(image->at(4, 4)[0], std::pow(0.5f, 9), 1e-5f);
+}
+
 TEST(RelitPicture, PutsTheEnvironmentBehind) {
   asset::Asset asset;
   test::addDiffuse(asset, test::sphere(Vec3::Zero(), 0.5f, 8), {});

@@ -12,7 +12,8 @@ namespace lambent::shade {
 /// Linear radiance, never negative (what a ringing light drives below zero is cut off per pixel,
 /// after averaging), with coverage in alpha: what covers half a pixel has half its radiance there.
 /// With a background there is no alpha. Surfaces seen from behind are black. Only the front of a
-/// material is lit, and a mirror shows the environment alone.
+/// material is lit. A mirror shows the asset's other surfaces as they are lit, and the environment
+/// between them: on the CPU by rays, by OpenGL from a capture around it (local_capture.glsl).
 struct PictureOptions {
   int width = 1024, height = 1024;
   int samples = 16;         ///< per pixel, at scene::subpixelPositions
