@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "lambent/transport/texel_charts.h"
@@ -13,9 +14,11 @@ namespace lambent::transport {
 
 namespace {
 
-constexpr double kPlacesATexel = 2.0;   ///< along a seam
-constexpr double kSimulated = 0.05;     ///< λ of texels that hold a place of the surface
-constexpr double kCopied = 0.002;       ///< λ of others
+constexpr double kPlacesATexel = 2.0;  ///< along a seam
+constexpr double kSimulated = 0.05;    ///< λ of texels that hold a place of the surface
+constexpr double kCopied = 0.002;      ///< λ of others
+constexpr float kApart =
+    1e-5f;  ///< of the mesh's size: files hold the two ends of a turn so far apart
 constexpr float kLeastCosine = 0.999f;  ///< between normals of one smooth surface, some 2.5°
 
 /// An edge as one triangle has it.
@@ -23,11 +26,48 @@ struct Side {
   std::uint32_t from, to;  ///< vertices
 };
 
-using Place = std::array<float, 3>;
-Place placeOf(const Vec3& p) {
-  const Vec3 q = p + Vec3::Zero();  // −0 equals +0
-  return {q.x(), q.y(), q.z()};
-}
+/// Edges found by their middle, which others have to within `tolerance`.
+class OpenEdges {
+ public:
+  OpenEdges(const scene::Mesh& mesh, float tolerance) : mesh_(mesh), tolerance_(tolerance) {}
+
+  void add(const Side& side) { cells_.emplace(cellOf(middle(side)), side); }
+  /// One that runs along `side` the other way, as its neighbour does; it is open no longer.
+  std::optional<Side> take(const Side& side) {
+    const Cell cell = cellOf(middle(side));
+    for (int k = 0; k < 27; ++k) {
+      const auto [first, last] =
+          cells_.equal_range({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
+      for (auto at = first; at != last; ++at) {
+        const Side other = at->second;
+        if (!near(other.from, side.to) || !near(other.to, side.from)) continue;
+        cells_.erase(at);
+        return other;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  Vec3 middle(const Side& side) const {
+    return 0.5f * (mesh_.positions[side.from] + mesh_.positions[side.to]);
+  }
+  bool near(std::uint32_t a, std::uint32_t b) const {
+    return (mesh_.positions[a] - mesh_.positions[b]).norm() <= tolerance_;
+  }
+  Cell cellOf(const Vec3& p) const {
+    const auto cell = [&](int axis) {
+      return static_cast<std::int64_t>(std::floor(double(p[axis]) / (2.0 * double(tolerance_))));
+    };
+    return {cell(0), cell(1), cell(2)};
+  }
+
+  const scene::Mesh& mesh_;
+  float tolerance_;
+  std::multimap<Cell, Side> cells_;
+};
 
 /// Edges of charts, each with the one that lies on it in another chart or elsewhere in the same.
 std::vector<std::pair<Side, Side>> seamsOf(const scene::Mesh& mesh) {
@@ -35,24 +75,26 @@ std::vector<std::pair<Side, Side>> seamsOf(const scene::Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (const scene::Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) ++uses[std::minmax({corners[t[k]], corners[t[(k + 1) % 3]]})];
-  std::map<std::pair<Place, Place>, Side> open;
+  scene::Box box;
+  for (const Vec3& p : mesh.positions) box.extend(p);
+  const float tolerance = std::max(kApart * box.diagonal(), 1e-30f);
+  OpenEdges open(mesh, tolerance);
   std::vector<std::pair<Side, Side>> seams;
   for (const scene::Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
       const Side side{t[k], t[(k + 1) % 3]};
       if (uses[std::minmax({corners[side.from], corners[side.to]})] != 1) continue;
-      const Place from = placeOf(mesh.positions[side.from]), to = placeOf(mesh.positions[side.to]);
-      if (from == to) continue;
-      const auto other = open.find({to, from});  // the neighbour runs along it the other way
-      if (other == open.end()) {
-        open.emplace(std::pair(from, to), side);
+      if ((mesh.positions[side.from] - mesh.positions[side.to]).norm() <= 2.0f * tolerance)
+        continue;
+      const std::optional<Side> other = open.take(side);
+      if (!other) {
+        open.add(side);
         continue;
       }
-      const Side turned{other->second.to, other->second.from};
-      const bool smooth = mesh.normals[side.from].dot(mesh.normals[turned.from]) > kLeastCosine &&
-                          mesh.normals[side.to].dot(mesh.normals[turned.to]) > kLeastCosine;
-      if (smooth) seams.emplace_back(side, turned);
-      open.erase(other);
+      const Side turned{other->to, other->from};
+      if (mesh.normals[side.from].dot(mesh.normals[turned.from]) > kLeastCosine &&
+          mesh.normals[side.to].dot(mesh.normals[turned.to]) > kLeastCosine)
+        seams.emplace_back(side, turned);
     }
   return seams;
 }

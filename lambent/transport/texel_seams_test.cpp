@@ -58,6 +58,15 @@ TEST(TexelSeams, OfASphereShowNoStep) {
     for (int x = 2; x < 38; ++x) EXPECT_EQ(after[y * 40 + x], before[y * 40 + x]);
 }
 
+// Once around, sin 2π is not sin 0, and files say so.
+TEST(TexelSeams, JoinWhatIsTheSamePlaceButForRounding) {
+  scene::Mesh mesh = scene::uvSphere(1.0f, 40, 20);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    if (mesh.uvs[v].x() == 1.0f) mesh.positions[v] += Vec3(2e-6f, -2e-6f, 1e-6f);
+  const Grid grid(std::move(mesh), 40, 20);
+  EXPECT_FALSE(TexelSeams(grid.mesh, grid.place()).empty());
+}
+
 TEST(TexelSeams, LeaveWhatIsTheSameAlongThem) {
   const Grid grid(scene::uvSphere(1.0f, 24, 12), 24, 12);
   std::vector<float> rows;
