@@ -170,7 +170,7 @@ void surfaces(const Studio& studio) {
   const sh::RgbCoefficients light = sky.project(options.bands);
   // What mirrors and veils show is lit as surfaces are: in as many bands.
   const light::Environment shown = light::Environment::harmonics(light);
-  const int width = studio.pixels(480), height = studio.pixels(360);
+  const int width = studio.pixels(400), height = studio.pixels(300);
   Sheet sheet;
   sheet.columnLabels = {"relit", "path-traced", "difference, times 4"};
   fmt::print(
@@ -184,7 +184,7 @@ void surfaces(const Studio& studio) {
     const asset::Asset asset = bake(cut, options).asset;
     const image::Image ours = photograph(asset, light, shown, place.camera, width, height);
     reference::PathTraceOptions traced;
-    traced.samples = studio.paths(1024), traced.bounces = asset.transfer.bounces;
+    traced.samples = studio.paths(512), traced.bounces = asset.transfer.bounces;
     const reference::Picture truth =
         orDie(reference::picture(place.scene, rays, shown, place.camera, width, height, traced));
     double noise = 0, power = 0, sum = 0, of = 0;

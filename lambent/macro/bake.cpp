@@ -209,7 +209,7 @@ Result<WithFindings<transfer::SimulatedField>> bake(const scene::Scene& scene,
                                                     const Progress& progress) {
   assert(receivers.meshes.size() == scene.meshes.size());
   if (Status sane = check(options, receivers); !sane) return sane.error();
-  const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
+  const DirectionSets directions(options.directions, options.seed, scene::bounds(scene));
   std::optional<transport::MendedReceivers> mended;
   if (options.kind != transfer::Kind::Unshadowed) {
     auto found =

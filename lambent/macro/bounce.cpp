@@ -115,11 +115,12 @@ void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
                       const ReceiverHits& hits, const PassRows& previous, Gathered& gathered,
                       Scratch& scratch) {
   const Vec3& normal = simulation.receivers.normals[receiver];
-  const auto weight = static_cast<float>(simulation.directions.weight());
-  const bool noLobes = !simulation.outTable;
+  const trace::DirectionSet& directions = simulation.directionsOf(receiver);
+  const auto weight = static_cast<float>(simulation.weight());
+  const bool noLobes = !simulation.tables[0].out;
   scratch.weights.resize(hits.receiver.size());
   for (std::size_t h = 0; h < hits.receiver.size(); ++h)
-    scratch.weights[h] = weight * normal.dot(simulation.directions[hits.direction[h]]);
+    scratch.weights[h] = weight * normal.dot(directions[hits.direction[h]]);
   addDiffuseExits(simulation, hits, previous, gathered, scratch);
   if (!noLobes) {
     std::size_t textured = 0;
@@ -127,14 +128,14 @@ void gatherIntoVector(const Simulation& simulation, std::uint32_t receiver,
       const std::uint32_t q = hits.receiver[h];
       const Rgb tint = tintOf(simulation, hits, h, textured);
       if (!simulation.sendsLobe(q)) continue;
-      const float w = weight * normal.dot(simulation.directions[hits.direction[h]]);
+      const float w = weight * normal.dot(directions[hits.direction[h]]);
       prepareLobe(simulation, simulation.receivers.exponents[q], scratch);
-      addLobe(simulation, q, simulation.directions[hits.direction[h]], w * tint, previous, scratch,
+      addLobe(simulation, q, directions[hits.direction[h]], w * tint, previous, scratch,
               gathered.incident.data());
     }
   }
   for (const MirroredHit& hit : hits.mirrored) {
-    const float w = weight * normal.dot(simulation.directions[hit.direction]);
+    const float w = weight * normal.dot(directions[hit.direction]);
     addExit(simulation, hit.receiver, hit.arrival, w * hit.throughput, previous, scratch,
             gathered.incident.data());
   }
@@ -145,11 +146,13 @@ void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
                       const ReceiverHits& hits, const PassRows& previous, Gathered& gathered,
                       Scratch& scratch) {
   const Vec3& normal = simulation.receivers.normals[receiver];
-  const auto weight = static_cast<float>(simulation.directions.weight());
+  const trace::DirectionSet& directions = simulation.directionsOf(receiver);
+  const Simulation::Tables& tables = simulation.tablesOf(receiver);
+  const auto weight = static_cast<float>(simulation.weight());
   const bool diffuse = simulation.isDiffuse(receiver);
   constexpr std::size_t kBatch = 256;
   const std::size_t total = hits.receiver.size() + hits.mirrored.size();
-  const std::size_t outStride = simulation.outTable->rows().stride;
+  const std::size_t outStride = tables.out->rows().stride;
   scratch.exits.resize(kBatch * (simulation.rowStride + outStride));
   float* exits = scratch.exits.data();
   float* harmonics = exits + kBatch * simulation.rowStride;
@@ -165,18 +168,18 @@ void gatherIntoMatrix(const Simulation& simulation, std::uint32_t receiver,
       double* exit = scratch.wide.data();
       std::fill_n(exit, simulation.rowStride, 0.0);
       if (straight)
-        addExit(simulation, hits.receiver[h], simulation.directions[direction],
+        addExit(simulation, hits.receiver[h], directions[direction],
                 tintOf(simulation, hits, h, textured), previous, scratch, exit);
       else
         addExit(simulation, mirrored->receiver, mirrored->arrival, mirrored->throughput, previous,
                 scratch, exit);
       for (std::size_t j = 0; j < simulation.rowStride; ++j)
         exits[k * simulation.rowStride + j] = static_cast<float>(exit[j]);
-      const float* y = simulation.outTable->row(direction);
+      const float* y = tables.out->row(direction);
       for (std::size_t i = 0; i < simulation.outCount; ++i)
         harmonics[k * outStride + i] = weight * y[i];
       if (diffuse) {
-        const double w = double(weight) * normal.dot(simulation.directions[direction]);
+        const double w = double(weight) * normal.dot(directions[direction]);
         for (std::size_t j = 0; j < simulation.rowStride; ++j) gathered.incident[j] += w * exit[j];
       }
     }

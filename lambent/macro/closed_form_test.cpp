@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lambent/macro/direction_sets.h"
 #include "lambent/macro/test_bake.h"
 #include "lambent/math/quadrature.h"
 #include "lambent/math/random.h"
@@ -173,10 +174,11 @@ TEST(ClosedForm, GlossyShadowedMatrixIsTheSumOverDirectionsEntryForEntry) {
   ASSERT_EQ(plane.outBands, 5);
   ASSERT_EQ(plane.inBands, 3);
   // The very directions of the bake.
-  const trace::DirectionSet directions(options.directions, math::randomRotation(options.seed));
+  const DirectionSets sets(options.directions, options.seed, scene::bounds(scene));
   const work::FlushDenormals flush;
   int compared = 0;
   for (std::size_t r = 0; r < plane.receiverCount(); ++r) {
+    const trace::DirectionSet& directions = sets[sets.numberAt(plane.positions[r])];
     std::vector<double> expected(25 * 9, 0.0), y(25);
     std::size_t visible = 0, above = 0;
     for (std::size_t d = 0; d < directions.size(); ++d) {

@@ -42,13 +42,15 @@ Half shorterHalf(const trace::CastResult& cast) {
 void addDiffuse(const Simulation& simulation, std::uint32_t receiver, Gathered& gathered,
                 Scratch& scratch) {
   const Vec3& normal = simulation.receivers.normals[receiver];
+  const trace::DirectionSet& directions = simulation.directionsOf(receiver);
   const Half half = shorterHalf(scratch.cast);
-  const auto weight = static_cast<float>(simulation.directions.weight());
+  const auto weight = static_cast<float>(simulation.weight());
   scratch.weights.resize(half.directions.size());
   for (std::size_t k = 0; k < half.directions.size(); ++k)
-    scratch.weights[k] = weight * normal.dot(simulation.directions[half.directions[k]]);
+    scratch.weights[k] = weight * normal.dot(directions[half.directions[k]]);
   double* e = gathered.incident.data();
-  addRows(simulation.inTable.rows(), half.directions, scratch.weights, scratch.wide.data());
+  addRows(simulation.tablesOf(receiver).in.rows(), half.directions, scratch.weights,
+          scratch.wide.data());
   if (half.blocked) {
     sh::turnTo(simulation.cosine, Vec3d(normal.cast<double>().normalized()),
                std::span<double>(scratch.y));
@@ -60,7 +62,7 @@ void addDiffuse(const Simulation& simulation, std::uint32_t receiver, Gathered& 
     std::copy_n(e, simulation.inCount, e + c * simulation.inCount);
 
   for (const MirrorEscape& escape : scratch.escapes) {
-    const float cosine = normal.dot(simulation.directions[escape.direction]);
+    const float cosine = normal.dot(directions[escape.direction]);
     sh::evaluate(simulation.inBands, escape.outward, std::span<float>(scratch.inFloat));
     for (int c = 0; c < simulation.channels; ++c) {
       const double w = double(weight) * cosine * escape.throughput[c];
@@ -86,10 +88,11 @@ void addBelowHorizon(const Simulation& simulation, std::uint32_t receiver, const
 void addMatrix(const Simulation& simulation, std::uint32_t receiver, Gathered& gathered,
                Scratch& scratch) {
   const Half half = shorterHalf(scratch.cast);
-  const auto weight = static_cast<float>(simulation.directions.weight());
+  const auto weight = static_cast<float>(simulation.weight());
   scratch.weights.assign(half.directions.size(), weight);
   std::fill(scratch.wide.begin(), scratch.wide.end(), 0.0);
-  addRows(simulation.wideTable->rows(), half.directions, scratch.weights, scratch.wide.data());
+  addRows(simulation.tablesOf(receiver).wide->rows(), half.directions, scratch.weights,
+          scratch.wide.data());
   if (half.blocked) {
     sh::turnTo(simulation.hemisphere,
                Vec3d(simulation.receivers.normals[receiver].cast<double>().normalized()),
@@ -112,7 +115,7 @@ void addMatrix(const Simulation& simulation, std::uint32_t receiver, Gathered& g
   }
   for (const MirrorEscape& escape : scratch.escapes) {
     sh::evaluate(simulation.inBands, escape.outward, std::span<float>(scratch.inFloat));
-    const float* y = simulation.outTable->row(escape.direction);
+    const float* y = simulation.tablesOf(receiver).out->row(escape.direction);
     for (std::size_t i = 0; i < simulation.outCount; ++i)
       for (int c = 0; c < simulation.channels; ++c) {
         const float w = weight * escape.throughput[c] * y[i];
@@ -125,8 +128,9 @@ void addMatrix(const Simulation& simulation, std::uint32_t receiver, Gathered& g
 void clear(Gathered& gathered, Scratch& scratch, const Simulation& simulation) {
   std::fill(gathered.incident.begin(), gathered.incident.end(), 0.0);
   std::fill(gathered.matrix.begin(), gathered.matrix.end(), 0.0f);
-  const std::size_t wide = std::max(simulation.rowStride,
-                                    simulation.wideTable ? simulation.wideTable->rows().stride : 0);
+  const std::size_t wide =
+      std::max(simulation.rowStride,
+               simulation.tables[0].wide ? simulation.tables[0].wide->rows().stride : 0);
   scratch.wide.assign(wide, 0.0);
   scratch.y.resize(wide);
   scratch.inFloat.resize(simulation.inCount);

@@ -20,9 +20,10 @@ bool hasMirrors(const scene::Scene& scene) {
 }
 
 void castAndSort(const Simulation& s, std::uint32_t receiver, Scratch& scratch) {
-  trace::castClosest(s.rays, s.directions, s.receivers.origins[receiver],
+  const trace::DirectionSet& directions = s.directionsOf(receiver);
+  trace::castClosest(s.rays, directions, s.receivers.origins[receiver],
                      s.receivers.normals[receiver], scratch.cast);
-  transport::sortHits(s.scene, s.rays, s.veils, s.receivers, s.directions, receiver, scratch.cast,
+  transport::sortHits(s.scene, s.rays, s.veils, s.receivers, directions, receiver, scratch.cast,
                       scratch.hits, scratch.escapes, scratch.counts);
 }
 
@@ -83,13 +84,13 @@ Result<DirectPass> directPass(const Simulation& s, work::ChunkRange range,
         if (closest) {
           castAndSort(s, r, scratch);
         } else {
-          trace::castOcclusion(s.rays, s.directions, s.receivers.origins[r], s.receivers.normals[r],
-                               scratch.cast);
+          trace::castOcclusion(s.rays, s.directionsOf(r), s.receivers.origins[r],
+                               s.receivers.normals[r], scratch.cast);
           scratch.escapes.clear();
           scratch.counts.rays += scratch.cast.raysCast;
         }
         gatherDirect(s, r, gathered, scratch);
-        if (bouncing) hits.add(scratch.hits, s.directions.size());
+        if (bouncing) hits.add(scratch.hits, s.directionCount());
       }
       out.energy += write(s, r, gathered, rows);
     }
@@ -114,7 +115,7 @@ Result<std::vector<double>> bouncePass(const Simulation& s, work::ChunkRange ran
     for (std::size_t k = chunk.begin; k < chunk.end; ++k) {
       const std::uint32_t r = s.order[k];
       if (hits)
-        hits->get(k - chunk.begin, s.directions.size(), scratch.hits);
+        hits->get(k - chunk.begin, s.directionCount(), scratch.hits);
       else
         castAndSort(s, r, scratch);
       gatherBounce(s, r, scratch.hits, bounce.previous, gathered, scratch);

@@ -9,7 +9,6 @@
 
 #include "lambent/macro/collect.h"
 #include "lambent/macro/test_bake.h"
-#include "lambent/math/random.h"
 
 namespace lambent::macro {
 namespace {
@@ -19,14 +18,14 @@ struct Bed {
   scene::Scene scene = mixedScene();
   trace::RayScene rays;
   PlacedReceivers receivers;
-  trace::DirectionSet directions;
+  DirectionSets directions;
   Simulation simulation;
 
   explicit Bed(const BakeOptions& options)
       : rays(std::move(*trace::RayScene::build(scene))),
         receivers(std::move(*transport::placeReceivers(scene, {{{0, 20, 12}}, {framesOfBox(scene)}},
                                                        rays.offset()))),
-        directions(options.directions, math::randomRotation(options.seed)),
+        directions(options.directions, options.seed, scene::bounds(scene)),
         simulation(scene, rays, receivers, directions, options,
                    channelsFor(scene, receivers, options.kind)) {}
 

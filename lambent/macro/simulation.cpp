@@ -5,7 +5,7 @@
 namespace lambent::macro {
 
 Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
-                       const PlacedReceivers& receivers_, const trace::DirectionSet& directions_,
+                       const PlacedReceivers& receivers_, const DirectionSets& directions_,
                        const BakeOptions& options_, int channels_,
                        std::span<const std::uint8_t> set)
     : scene(scene_),
@@ -21,7 +21,6 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
       inCount(sh::coefficientCount(inBands)),
       outCount(sh::coefficientCount(outBands)),
       rowStride(transport::paddedRow(channels_ * inCount)),
-      inTable(directions_, inBands),
       cosine(sh::clampedCosine(inBands)),
       hemisphere(sh::hemisphere(inBands + outBands - 1)) {
   if (!set.empty()) std::erase_if(order, [&](std::uint32_t r) { return set[r] != 0; });
@@ -49,12 +48,15 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
   const std::size_t first = receivers.size() - receivers.witnesses.size();
   for (std::size_t k = 0; k < receivers.witnesses.size(); ++k)
     describe(static_cast<std::uint32_t>(first + k), receivers.witnesses[k]);
-  if (matrixCount == 0) {
-    outCount = 0;  // no matrices to hold
-    return;
+  for (const Vec3& position : receivers.positions)
+    setOfReceiver_.push_back(static_cast<std::uint8_t>(directions.numberAt(position)));
+  for (std::size_t k = 0; k < directions.count(); ++k) {
+    Tables& of = tables.emplace_back(Tables{DirectionTable(directions[k], inBands), {}, {}});
+    if (matrixCount == 0) continue;
+    of.out = std::make_unique<DirectionTable>(directions[k], outBands);
+    of.wide = std::make_unique<DirectionTable>(directions[k], inBands + outBands - 1);
   }
-  outTable = std::make_unique<DirectionTable>(directions, outBands);
-  wideTable = std::make_unique<DirectionTable>(directions, inBands + outBands - 1);
+  if (matrixCount == 0) outCount = 0;  // no matrices to hold
 }
 
 }  // namespace lambent::macro

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lambent/macro/bake.h"
+#include "lambent/macro/direction_sets.h"
 #include "lambent/sh/product.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/transport/direction_tables.h"
@@ -39,7 +40,7 @@ struct Simulation {
   const scene::Scene& scene;
   const trace::RayScene& rays;
   const PlacedReceivers& receivers;
-  const trace::DirectionSet& directions;
+  const DirectionSets& directions;
   trace::Veils veils;
   BakeOptions options;
   std::vector<std::uint32_t> order;  ///< receivers that are simulated, neighbours after each other:
@@ -50,11 +51,15 @@ struct Simulation {
   std::size_t inCount = 25, outCount = 25;  ///< n², N²
   std::size_t rowStride = 32;
 
-  DirectionTable inTable;                     ///< y of n bands
-  std::unique_ptr<DirectionTable> outTable;   ///< y of N bands, if anything has a matrix
-  std::unique_ptr<DirectionTable> wideTable;  ///< y of n+N−1 bands, if anything has a matrix
-  sh::ZonalMoments cosine;                    ///< n bands
-  sh::ZonalMoments hemisphere;                ///< n+N−1 bands
+  /// Harmonics of one set of directions.
+  struct Tables {
+    DirectionTable in;                     ///< y of n bands
+    std::unique_ptr<DirectionTable> out;   ///< y of N bands, if anything has a matrix
+    std::unique_ptr<DirectionTable> wide;  ///< y of n+N−1 bands, if anything has a matrix
+  };
+  std::vector<Tables> tables;   ///< of every set
+  sh::ZonalMoments cosine;      ///< n bands
+  sh::ZonalMoments hemisphere;  ///< n+N−1 bands
 
   /// What of a receiver's reflectances its exits are made with: all, but for the base colour of
   /// textured meshes, which a hit brings (transport::ReceiverHits::colour).
@@ -68,7 +73,7 @@ struct Simulation {
 
   /// `set`: 1 for receivers that are set by others after every pass, and not simulated; or empty.
   Simulation(const scene::Scene& scene, const trace::RayScene& rays,
-             const PlacedReceivers& receivers, const trace::DirectionSet& directions,
+             const PlacedReceivers& receivers, const DirectionSets& directions,
              const BakeOptions& options, int channels, std::span<const std::uint8_t> set = {});
 
   /// Of receivers in the sequence of `order`: what a thread takes at a time.
@@ -78,6 +83,12 @@ struct Simulation {
     return options.kind == transfer::Kind::Interreflected && options.bounces > 0;
   }
   std::size_t matrixStride() const { return outCount * rowStride; }
+  const trace::DirectionSet& directionsOf(std::uint32_t receiver) const {
+    return directions[setOfReceiver_[receiver]];
+  }
+  const Tables& tablesOf(std::uint32_t receiver) const { return tables[setOfReceiver_[receiver]]; }
+  std::size_t directionCount() const { return directions[0].size(); }
+  double weight() const { return directions[0].weight(); }  ///< of a direction, steradians
   bool hasMatrix(std::uint32_t receiver) const { return matrixIndex[receiver] != kNoMatrix; }
   /// Whether it sends light on by a lobe: glossy surfaces alone, whose matrices are before the
   /// lobe.
@@ -87,7 +98,7 @@ struct Simulation {
   bool isTextured(std::uint32_t receiver) const { return texturedReceiver_[receiver] != 0; }
 
  private:
-  std::vector<std::uint8_t> diffuseReceiver_, lobeReceiver_, texturedReceiver_;
+  std::vector<std::uint8_t> diffuseReceiver_, lobeReceiver_, texturedReceiver_, setOfReceiver_;
 };
 
 /// What one receiver gathers in one pass. `incident` is E; `matrix` is M. Sized by the simulation.

@@ -77,7 +77,7 @@ struct LitScene {
     const auto patch = patches.find(hit.mesh);
     if (patch != patches.end() && !material.isMirror())
       return patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(distance));
-    const Rgb base = shade::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
+    const Rgb base = scene::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
     const Vec3 reflected = shade::mirrored(toViewer, point.normal);
     if (material.isMirror())
       return material.mirror * base *

@@ -152,18 +152,6 @@ std::vector<Rgb> colorsAtTexels(const Mesh& mesh, int width, int height) {
 
 }  // namespace
 
-Rgb baseColorAt(const Scene& scene, std::uint32_t meshIndex, std::uint32_t triangle, float u,
-                float v) {
-  const Mesh& mesh = scene.meshes[meshIndex];
-  const auto [i, j, k] = mesh.triangles[triangle];
-  const float w = 1.0f - u - v;
-  Rgb base = Rgb::Ones();
-  if (!mesh.colors.empty()) base = w * mesh.colors[i] + u * mesh.colors[j] + v * mesh.colors[k];
-  if (const Texture* texture = baseTexture(scene, mesh))
-    base *= scene::sampleBaseColor(*texture, w * mesh.uvs[i] + u * mesh.uvs[j] + v * mesh.uvs[k]);
-  return base;
-}
-
 std::vector<Rgb> receiverBaseColors(const Scene& scene, std::uint32_t meshIndex,
                                     const transfer::Receivers& receivers) {
   const Mesh& mesh = scene.meshes[meshIndex];

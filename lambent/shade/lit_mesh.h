@@ -58,10 +58,8 @@ inline Vec3 mirrored(const Vec3& v, const Vec3& normal) {
   return 2.0f * normal.dot(v) * normal - v;
 }
 
-/// Base colour (texture × vertex colour, without the material's factors) at a point of a triangle.
-Rgb baseColorAt(const scene::Scene& scene, std::uint32_t mesh, std::uint32_t triangle, float u,
-                float v);
-/// … and at every receiver of a mesh; empty if it is white everywhere.
+/// Base colour (texture × vertex colour, without the material's factors) at every receiver of a mesh;
+/// empty if it is white everywhere.
 std::vector<Rgb> receiverBaseColors(const scene::Scene& scene, std::uint32_t mesh,
                                     const transfer::Receivers& receivers);
 

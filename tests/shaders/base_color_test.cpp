@@ -1,4 +1,4 @@
-// shaders/base_color.glsl against shade::baseColorAt.
+// shaders/base_color.glsl against scene::baseColorAt.
 
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ TEST(BaseColor, IsTheLibrarys) {
           mapped::texture = &texture;
           // The library's weights are of double precision: a texel's place has 1e-6 of it here.
           ASSERT_LT(apart(mapped::baseColor(from(color), from(uv)),
-                          shade::baseColorAt(scene, 0, 0, u, v)),
+                          scene::baseColorAt(scene, 0, 0, u, v)),
                     1e-5f)
               << uv.transpose();
           ASSERT_NEAR(mapped::sampleAlpha(from(uv)), scene::sampleAlpha(texture, uv), 1e-5f)
