@@ -25,13 +25,14 @@ DirectionSets::DirectionSets(int directions, std::uint64_t seed, const scene::Bo
     sets_.emplace_back(directions, math::randomRotation(
                                        k == 0 ? seed : math::hashCombine(seed, std::uint64_t(k))));
   if (box.empty()) return;
+  middle_ = box.center();
   cell_ = std::exp2(std::floor(std::log2(std::max(box.diagonal() / kCellsAcross, 1e-30f))));
 }
 
 std::size_t DirectionSets::numberAt(const Vec3& position) const {
   std::uint64_t key = seed_;
   for (int axis = 0; axis < 3; ++axis) {
-    const float cell = std::floor(position[axis] / cell_ + kOffset);
+    const float cell = std::floor((position[axis] - middle_[axis]) / cell_ + kOffset);
     key = math::hashCombine(key, static_cast<std::uint64_t>(static_cast<std::int64_t>(cell)));
   }
   return static_cast<std::size_t>((key >> 32) % sets_.size());
