@@ -153,6 +153,7 @@ Status LiveRenderer::setEnvironment(const light::Environment& environment) {
   impl_->fold();  // as it was seen
   impl_->environment = environment;
   impl_->environmentStale = true;
+  impl_->scene.environmentChanged();
   return Status::ok();
 }
 
@@ -279,6 +280,11 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
     seen.shafts = impl_->air->planes(camera, impl_->bounds);
   if (impl_->sun)
     seen.sun = light::pointsOf(*impl_->sun, samples)[std::size_t(impl_->samples % samples)];
+  if (!view.unlit) {
+    const GlScene::Surroundings surroundings{impl_->environmentOnGpu, seen.environmentFromWorld,
+                                             impl_->sun};
+    if (Status s = impl_->scene.captureMirrors(surroundings); !s) return s;
+  }
   if (Status s = impl_->scene.mapSun(seen); !s) return s;
   if (Status s = impl_->target->prepare(impl_->around(seen)); !s) return s;
   target.beginFrame();

@@ -16,6 +16,11 @@
 #include "lambent/shade/picture_frame.h"
 
 namespace lambent::render {
+namespace {
+
+constexpr int kMostVeilSamples = 16;  ///< of what mirrors show
+
+}  // namespace
 
 struct Renderer::Impl {
   const light::Environment& environment;
@@ -36,6 +41,10 @@ struct Renderer::Impl {
     view.sample = sample;
     view.background = options.background;
     if (options.air && options.air->shafts) view.shafts = options.air->planes(camera, bounds);
+    GlScene::Surroundings surroundings{inMirrors};
+    if (options.sun) surroundings.sun = options.sun->sun;
+    surroundings.veilSamples = std::min(options.samples, kMostVeilSamples);
+    if (Status s = scene.captureMirrors(surroundings); !s) return s.error();
     if (Status s = scene.mapSun(view); !s) return s.error();
     target.beginFrame();
     scene.draw(view, inMirrors);

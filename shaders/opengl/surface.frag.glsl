@@ -5,7 +5,7 @@
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, with LAMBENT_ALPHA coverage.glsl, base_color_map.glsl, shading_normal.glsl,
 // texel_receivers.glsl, corner_weights.glsl, sample_alpha.glsl; for receivers sun_shadow.glsl; for
-// mirrors environment.glsl, environment_maps.glsl; LAMBENT_AIR 1 for mirrors in air, with what
+// mirrors environment.glsl, environment_maps.glsl, local_capture.glsl; LAMBENT_AIR 1 for mirrors in air, with what
 // air_texels.glsl says, or 0.
 
 struct Vertex {
@@ -124,11 +124,19 @@ vec3 litRadiance() {
 #elif LAMBENT_KIND == 2
 
 vec3 litRadiance() {
-  vec3 direction = reflectedView(), shown = environmentRadiance(direction);
+  vec3 direction = reflectedView(), shown = vec3(0.0);
+  float away;
+  vec4 met = capturedAlong(position, direction, away);
+  if (met.a < 1.0) {
+    shown = environmentRadiance(direction);
 #if LAMBENT_AIR
-  shown = seenBehindAir(position, direction, shown);
+    shown = seenBehindAir(position, direction, shown);
 #endif
-  return mirror * base() * shown;
+  }
+#if LAMBENT_AIR
+  if (met.a > 0.0) met.rgb = met.a * seenThroughAir(away * direction, met.rgb / met.a);
+#endif
+  return mirror * base() * (met.rgb + max(1.0 - met.a, 0.0) * shown);
 }
 
 #else
