@@ -18,7 +18,7 @@ constexpr GLuint kCaptureUnit = 6;  ///< of textures
 constexpr int kLeastSide = 16;
 /// Of distances in a scene, what 16 bits hold to their full precision.
 constexpr float kHalfLeast = 1.0f, kHalfMost = 3e4f;
-constexpr float kNearest = 1e-3f;       ///< of the farthest: what is nearer is not drawn
+constexpr float kNearest = 1e-3f;          ///< of the farthest: what is nearer is not drawn
 constexpr float kNearestAtMirror = 0.02f;  ///< of the mirror's own size, if that is less
 
 bool isMirror(const scene::Scene& scene, std::uint32_t mesh) {
@@ -118,16 +118,16 @@ Result<GlMirrors> GlMirrors::make(const scene::Scene& scene, int side) {
       made.captures_.push_back(std::move(capture));
       continue;
     }
-    const auto nearest =
-        std::min_element(made.captures_.begin(), made.captures_.end(),
-                         [&](const Capture& a, const Capture& b) {
-                           return (a.from - center).norm() < (b.from - center).norm();
-                         });
+    const auto nearest = std::min_element(
+        made.captures_.begin(), made.captures_.end(), [&](const Capture& a, const Capture& b) {
+          return (a.from - center).norm() < (b.from - center).norm();
+        });
     made.captureOf_[m] = std::size_t(nearest - made.captures_.begin());
   }
   made.showMirrors_ = mirrors.size() > 1;
   const std::vector<scene::Passing> passings = scene::passingsOf(scene);
-  made.veils_ = std::find(passings.begin(), passings.end(), scene::Passing::Shares) != passings.end();
+  made.veils_ =
+      std::find(passings.begin(), passings.end(), scene::Passing::Shares) != passings.end();
   const float size = bounds.diagonal();
   made.format_ = size >= kHalfLeast && size <= kHalfMost ? GL_RGBA16F : GL_RGBA32F;
   Status status = made.makeMaps(side);

@@ -62,9 +62,9 @@ class GlMirrors {
  private:
   struct Capture {
     std::uint32_t mesh = 0;
-    Vec3 from;        ///< in the asset's frame
+    Vec3 from;  ///< in the asset's frame
     float near = 0, far = 0;
-    Texture map;      ///< a cube
+    Texture map;  ///< a cube
     bool drawn = false;
   };
   Status makeMaps(int side);

@@ -145,14 +145,14 @@ Status GlScene::setAir(const std::optional<shade::Air>& air) {
 Status GlScene::captureMirrors(const Surroundings& surroundings) {
   if (!hasMirrors() || !GlMirrors::areIn(asset_->scene)) return Status::ok();
   if (!mirrors_) {
-    Result<GlMirrors> made = GlMirrors::make(
-        asset_->scene, std::min(options_.mirrorSide, options_.largestTexture));
+    Result<GlMirrors> made =
+        GlMirrors::make(asset_->scene, std::min(options_.mirrorSide, options_.largestTexture));
     if (!made) return made.error();
     mirrors_.emplace(std::move(*made));
   }
   const bool showsEnvironment = mirrors_->showMirrors() || mirrors_->hasVeils();
-  const bool turned = environmentStale_ ||
-                      environmentInMirrors_ != surroundings.environmentFromWorld;
+  const bool turned =
+      environmentStale_ || environmentInMirrors_ != surroundings.environmentFromWorld;
   if (!mirrorsStale_ && !(showsEnvironment && turned)) return Status::ok();
   const int samples = mirrors_->hasVeils() ? std::max(surroundings.veilSamples, 1) : 1;
   std::vector<light::SunPoint> sun;

@@ -63,8 +63,8 @@ class GlScene {
   struct Surroundings {
     const GlEnvironment& environment;
     Mat3 environmentFromWorld = Mat3::Identity();
-    std::optional<light::Sun> sun;  ///< whose shadows are sharp
-    int veilSamples = 4;            ///< sub-samples of what mirrors show, where there are veils
+    std::optional<light::Sun> sun = {};  ///< whose shadows are sharp
+    int veilSamples = 4;  ///< sub-samples of what mirrors show, where there are veils
   };
   /// Draws what mirrors show of the asset, if anything of it has changed since it was drawn, and binds
   /// other framebuffers for that: before mapSun(). The first time it makes what it needs.

@@ -37,7 +37,8 @@ class LiveRenderer {
  public:
   /// Checks and uploads everything. `asset` must outlive it. Black until there is a light.
   static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing);
-  /// The same with storage buffers of `largestBlock` bytes at most, for tests.
+  /// The same with storage buffers of `largestBlock` bytes at most, and 128 texels to a side of what
+  /// mirrors show, for tests.
   static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing,
                                    std::size_t largestBlock);
   LiveRenderer(LiveRenderer&&) noexcept;

@@ -19,6 +19,7 @@ namespace lambent::render {
 namespace {
 
 constexpr int kMostVeilSamples = 16;  ///< of what mirrors show
+constexpr int kQuickMirrors = 128;    ///< texels along the edge of a face
 
 }  // namespace
 
@@ -31,6 +32,10 @@ struct Renderer::Impl {
   GlTarget target;
   GlScene scene;
   GlEnvironment inMirrors;
+
+  static Result<Renderer> make(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                               const light::Environment& environment,
+                               const shade::PictureOptions& options, GlSceneOptions sceneOptions);
 
   /// One frame, sub-sample number `sample`, seen through `place` of every pixel, under a point of the sharp Sun, if there is one.
   Result<GlView> draw(const scene::Camera& camera, int sample, const Vec2& place,
@@ -64,12 +69,25 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                 const light::Environment& environment,
                                 const shade::PictureOptions& options) {
-  return make(asset, light, environment, options, kLargestBlock);
+  GlSceneOptions sceneOptions;
+  sceneOptions.largestBlock = kLargestBlock;
+  return Impl::make(asset, light, environment, options, sceneOptions);
 }
 
 Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                 const light::Environment& environment,
                                 const shade::PictureOptions& options, std::size_t largestBlock) {
+  GlSceneOptions sceneOptions;
+  sceneOptions.largestBlock = largestBlock;
+  sceneOptions.mirrorSide = kQuickMirrors;
+  return Impl::make(asset, light, environment, options, sceneOptions);
+}
+
+/// Of `sceneOptions` sizes are taken, within what this OpenGL takes.
+Result<Renderer> Renderer::Impl::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                                      const light::Environment& environment,
+                                      const shade::PictureOptions& options,
+                                      GlSceneOptions sceneOptions) {
   if (Status s = shade::checkPicture(asset, light, {}, options); !s) return s.error();
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
@@ -81,8 +99,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
         "picture on the CPU",
         width, height, limits.largestTexture));
 
-  GlSceneOptions sceneOptions;
-  sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
+  sceneOptions.largestBlock = std::min(sceneOptions.largestBlock, limits.largestStorageBlock);
   sceneOptions.largestTexture = limits.largestTexture;
   sceneOptions.showing = options.showing;
   if (options.sun) sceneOptions.sunShare = options.sun->share;
