@@ -81,7 +81,8 @@ float farthest(const scene::Box& box, const Vec3& from) {
 }  // namespace
 
 std::string localCaptureSource() {
-  return std::string(shaderSource("local_capture.glsl"));
+  // Half of what the page takes: what is thinner may be missed.
+  return "#define LAMBENT_CAPTURE_STEP 0.04\n" + std::string(shaderSource("local_capture.glsl"));
 }
 
 bool GlMirrors::areIn(const scene::Scene& scene) {
@@ -147,7 +148,8 @@ Status GlMirrors::makeMaps(int side) {
     glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &name);
     capture.map = Texture(name);
     glTextureStorage2D(name, 1, format_, side, side);
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
       glTextureParameteri(name, wrap, GL_CLAMP_TO_EDGE);
   }

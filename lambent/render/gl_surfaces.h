@@ -26,7 +26,7 @@ namespace lambent::render {
 class GlSurfaces {
  public:
   /// `asset` must outlive it, and fit together (asset::faultOf).
-  /// `air`: before the ground that mirrors show; null for none.
+  /// `air`: before what mirrors show; null for none.
   GlSurfaces(const asset::Asset& asset, std::size_t largestBlock, std::shared_ptr<const GlAir> air)
       : asset_(&asset),
         passings_(scene::passingsOf(asset.scene)),

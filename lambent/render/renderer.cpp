@@ -19,7 +19,7 @@ namespace lambent::render {
 namespace {
 
 constexpr int kMostVeilSamples = 16;  ///< of what mirrors show
-constexpr int kQuickMirrors = 128;    ///< texels along the edge of a face
+constexpr int kCoarseMirrors = 128;   ///< texels along the edge of a face
 
 }  // namespace
 
@@ -79,7 +79,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
                                 const shade::PictureOptions& options, std::size_t largestBlock) {
   GlSceneOptions sceneOptions;
   sceneOptions.largestBlock = largestBlock;
-  sceneOptions.mirrorSide = kQuickMirrors;
+  sceneOptions.mirrorSide = kCoarseMirrors;
   return Impl::make(asset, light, environment, options, sceneOptions);
 }
 

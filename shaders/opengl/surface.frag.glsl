@@ -5,8 +5,8 @@
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, with LAMBENT_ALPHA coverage.glsl, base_color_map.glsl, shading_normal.glsl,
 // texel_receivers.glsl, corner_weights.glsl, sample_alpha.glsl; for receivers sun_shadow.glsl; for
-// mirrors environment.glsl, environment_maps.glsl, local_capture.glsl; LAMBENT_AIR 1 for mirrors in air, with what
-// air_texels.glsl says, or 0.
+// mirrors environment.glsl, environment_maps.glsl, local_capture.glsl; LAMBENT_AIR 1 for mirrors in
+// air, with what air_texels.glsl says, or 0.
 
 struct Vertex {
   vec4 positionU;
@@ -125,8 +125,8 @@ vec3 litRadiance() {
 
 vec3 litRadiance() {
   vec3 direction = reflectedView(), shown = vec3(0.0);
-  float away;
-  vec4 met = capturedAlong(position, direction, away);
+  vec3 place;
+  vec4 met = capturedAlong(position, direction, place);
   if (met.a < 1.0) {
     shown = environmentRadiance(direction);
 #if LAMBENT_AIR
@@ -134,7 +134,7 @@ vec3 litRadiance() {
 #endif
   }
 #if LAMBENT_AIR
-  if (met.a > 0.0) met.rgb = met.a * seenThroughAir(away * direction, met.rgb / met.a);
+  if (met.a > 0.0) met.rgb = met.a * seenThroughAir(place - position, met.rgb / met.a);
 #endif
   return mirror * base() * (met.rgb + max(1.0 - met.a, 0.0) * shown);
 }
