@@ -81,8 +81,8 @@ float farthest(const scene::Box& box, const Vec3& from) {
 }  // namespace
 
 std::string localCaptureSource() {
-  // Half of what the page takes: what is thinner may be missed.
-  return "#define LAMBENT_CAPTURE_STEP 0.04\n" + std::string(shaderSource("local_capture.glsl"));
+  // A quarter of what the page takes: borders of things may lie as much too far in.
+  return "#define LAMBENT_CAPTURE_STEP 0.02\n" + std::string(shaderSource("local_capture.glsl"));
 }
 
 bool GlMirrors::areIn(const scene::Scene& scene) {
