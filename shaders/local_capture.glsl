@@ -1,21 +1,24 @@
 // What a mirror shows of the asset it belongs to: a cube map of all other surfaces as they are lit,
-// drawn from a place in or at the mirror, and looked up where a ray meets what was drawn: it is
+// drawn from a place in or at the mirror, and looked up where a ray meets what was drawn. The ray is
 // followed across the map, by equal angles and then by halves, until it is no longer before what the
-// map has there. So what is near stands where it does, wherever on the mirror it is seen. Where a ray
-// passes behind what is in the map, nothing is known; what the map has beside that stands in.
+// map has there: so what is near stands where it does, wherever on the mirror it is seen. Where a
+// ray passes behind what is in the map, nothing is known; what the map has beside that stands in.
 //
-// The map is to be looked up without a filter: between surfaces nothing lies that is of both.
+// The map is to be looked up without a filter: nothing lies between one surface and another.
 
-uniform samplerCube capture;  // radiance, and in alpha the distance from captureFrom: 0 where nothing is
+uniform samplerCube capture;  // radiance; in alpha the distance from captureFrom, 0: nothing is there
 uniform vec3 captureFrom;
 uniform bool hasCapture;
 
 #ifndef LAMBENT_CAPTURE_STEP
 #define LAMBENT_CAPTURE_STEP 0.08  // radians
 #endif
+#ifndef LAMBENT_CAPTURE_PHASE
+#define LAMBENT_CAPTURE_PHASE 1.0  // of the first step, which is as much shorter, 0 … 1
+#endif
 const int kCaptureHalvings = 6;
 const float kCaptureJump = 0.1;  // of a distance: what lies that much nearer is another surface
-// Of a distance: so thick is what ends, and so much more a surface may slope over half a texel there.
+// Of a distance: so thick is what ends, and so much a surface may slope there over half a texel.
 const float kCaptureThin = 0.02, kCaptureSlope = 0.03;
 const float kCaptureAside = 1.5;  // texels
 const float kNothingCaptured = 1e30;
@@ -25,8 +28,8 @@ float captureDistance(vec3 direction) {
   return here > 0.0 ? here : kNothingCaptured;
 }
 
-// The four texels around a direction: towards the middle of the first, from there to the others, and
-// how far the direction is on the way to them, 0 … 1.
+// The four texels around a direction: towards the middle of the first, from there to the others,
+// and how far the direction is on the way to them, 0 … 1.
 struct CaptureTexels {
   vec3 first, u, v;
   vec2 at;
@@ -52,9 +55,10 @@ CaptureTexels captureTexels(vec3 direction) {
 float captureDistanceBetween(vec3 direction) {
   CaptureTexels around = captureTexels(direction);
   float here = captureDistance(direction);
-  float between = mix(mix(captureDistance(around.first), captureDistance(around.first + around.u), around.at.x),
-                      mix(captureDistance(around.first + around.v),
-                          captureDistance(around.first + around.u + around.v), around.at.x), around.at.y);
+  vec3 first = around.first, second = first + around.v;
+  float between =
+      mix(mix(captureDistance(first), captureDistance(first + around.u), around.at.x),
+          mix(captureDistance(second), captureDistance(second + around.u), around.at.x), around.at.y);
   return abs(between - here) < kCaptureJump * here ? between : here;
 }
 
@@ -77,31 +81,33 @@ vec4 captureAt(vec3 direction, out vec3 place) {
   return sum.a > 0.0 ? vec4(sum.rgb * (share / sum.a), share) : sum;
 }
 
-// Radiance of what the ray from `from` along a unit direction meets, and 1; 0 where it leaves; between
-// them where borders are crossed, times the share that alpha is. And the place that it meets.
+// Radiance of what the ray from `from` along a unit direction meets, and 1; 0 where it leaves. At
+// borders alpha is between them, and radiance times it. And the place that it meets.
 vec4 capturedAlong(vec3 from, vec3 direction, out vec3 place) {
   place = from;
   if (!hasCapture) return vec4(0.0);
   vec3 off = from - captureFrom, normal = cross(off, direction);
   float away = length(normal), near = length(off);  // of the ray, and of its beginning
   if (away <= 1e-3 * near || near <= 0.0) return captureAt(direction, place);
-  // Seen from captureFrom the ray begins at `start` and ends at `direction`; in a direction between them
-  // it is `away` by the sine of what is left of the angle away.
+  // Seen from captureFrom the ray begins at `start` and ends at `direction`; in a direction between
+  // them its distance is `away` by the sine of what is left of the angle.
   normal /= away;
   vec3 start = off / near;
   float whole = atan(away, dot(off, direction));
   int steps = int(whole / LAMBENT_CAPTURE_STEP) + 2;
-  float angle = whole / float(steps), turn = 2.0 * cos(angle);
+  float phase = LAMBENT_CAPTURE_PHASE, angle = whole / (float(steps) - 1.0 + phase), turn = 2.0 * cos(angle);
   float texel = 2.0 / float(textureSize(capture, 0).x);  // radians, in the middle of a face
 
-  vec3 last = start, here = cos(angle) * start + sin(angle) * cross(normal, start), beside = direction;
+  vec3 across = cross(normal, start), beside = direction;
+  vec3 here = cos(phase * angle) * start + sin(phase * angle) * across;
+  vec3 last = cos((phase - 1.0) * angle) * start + sin((phase - 1.0) * angle) * across;
   // What it begins at is there as texels have it.
   bool wasBefore = near < (1.0 + kCaptureSlope) * captureDistance(start);
   for (int i = 1; i <= steps; ++i) {
     float there = away / max(length(cross(here, direction)), 1e-6);
     bool isBefore = there < captureDistance(here);
     if (wasBefore && !isBefore) {
-      vec3 low = last, high = here;
+      vec3 low = i > 1 ? last : start, high = here;
       for (int k = 0; k < kCaptureHalvings; ++k) {
         vec3 middle = normalize(low + high);
         there = away / max(length(cross(middle, direction)), 1e-6);

@@ -81,8 +81,12 @@ float farthest(const scene::Box& box, const Vec3& from) {
 }  // namespace
 
 std::string localCaptureSource() {
-  // A quarter of what the page takes: borders of things may lie as much too far in.
-  return "#define LAMBENT_CAPTURE_STEP 0.02\n" + std::string(shaderSource("local_capture.glsl"));
+  // A quarter of what the page takes: borders of things may lie as much too far in. By how much differs
+  // from pixel to pixel, and from one sub-sample to the next.
+  return "#define LAMBENT_CAPTURE_STEP 0.02\n"
+         "float capturePhase();\n"
+         "#define LAMBENT_CAPTURE_PHASE capturePhase()\n" +
+         std::string(shaderSource("local_capture.glsl"));
 }
 
 bool GlMirrors::areIn(const scene::Scene& scene) {
@@ -234,8 +238,9 @@ void GlMirrors::endFace(const Capture& capture, int face, const GlView& view,
                   GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void GlMirrors::bind(const Program& program, std::uint32_t mesh) const {
+void GlMirrors::bind(const Program& program, std::uint32_t mesh, int sample) const {
   const auto found = captureOf_.find(mesh);
+  program.set("captureSample", sample);
   if (found == captureOf_.end() || !captures_[found->second].drawn) {
     bindNone(program);
     return;

@@ -54,8 +54,8 @@ class GlMirrors {
       capture.drawn = true;
     }
   }
-  /// For the program of a mirror that draws a mesh next.
-  void bind(const Program& program, std::uint32_t mesh) const;
+  /// For the program of a mirror that draws a mesh next, in a frame that is sub-sample number `sample`.
+  void bind(const Program& program, std::uint32_t mesh, int sample) const;
   /// The same without any map.
   static void bindNone(const Program& program);
 

@@ -329,7 +329,7 @@ void GlSurfaces::draw(const GlView& view, const Around& around, const GlBaseColo
     if (draw.kind == SurfaceKind::Mirror) {
       around.environment.bind(program, view.environmentFromWorld);
       if (around.mirrors)
-        around.mirrors->bind(program, draw.mesh);
+        around.mirrors->bind(program, draw.mesh, view.sample);
       else
         GlMirrors::bindNone(program);
       if (air_) air_->bindTable(program);

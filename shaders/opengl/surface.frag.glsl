@@ -123,6 +123,14 @@ vec3 litRadiance() {
 
 #elif LAMBENT_KIND == 2
 
+uniform int captureSample;
+
+// Of a pixel and a sub-sample's number, in [0, 1), evenly: borders in what mirrors show have no teeth.
+float capturePhase() {
+  float pixel = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  return fract(pixel + 0.618033988 * float(captureSample));
+}
+
 vec3 litRadiance() {
   vec3 direction = reflectedView(), shown = vec3(0.0);
   vec3 place;
