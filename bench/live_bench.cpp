@@ -167,6 +167,16 @@ void benchKinds() {
     scene::addTo(caustic, scene::ring(0.45f, 0.5f, 0.4f, 96, 8), mirror);
     compare("mirror and caustic", bake(caustic));
   }
+  {
+    // What the mirror shows is drawn anew with every light, and not with the view.
+    scene::Scene scene = scene::sceneOf(bumpySphere(vertices), coloured());
+    scene::addTo(scene, scene::room(Vec3(4, 3, 4), quick ? 4 : 16), coloured());
+    scene::Material mirror;
+    mirror.mirror = Rgb::Constant(0.9f);
+    scene::addTo(scene, scene::translated(scene::uvSphere(0.6f, 48, 24), Vec3(1.2f, 0, 0.3f)),
+                 mirror);
+    compare("mirror in a scene", bake(std::move(scene)));
+  }
   meso::RttOptions rttOptions;
   rttOptions.width = rttOptions.height = quick ? 8 : 64;
   rttOptions.directions = 32;

@@ -1,4 +1,5 @@
-// What mirrors and the background show, on the GPU (shaders/environment.glsl).
+// What the background shows, and mirrors where they see nothing nearer (gl_mirrors.h), on the GPU
+// (shaders/environment.glsl).
 #pragma once
 
 #include <cstddef>

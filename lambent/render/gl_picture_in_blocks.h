@@ -1,5 +1,5 @@
 // render::picture with the size of storage buffers as a parameter, so that tests can make small
-// assets fall into many pieces.
+// assets fall into many pieces; and with coarse mirrors, which take software GL less time.
 #pragma once
 
 #include "lambent/render/gl_picture.h"

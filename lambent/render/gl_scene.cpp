@@ -107,6 +107,7 @@ Status GlScene::relight() {
     if (status) status = transfer_.relight(relit);
   });
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  mirrorsStale_ = true;
   if (!status) return status;
   return checkGl("applying transfer to the light");
 }
@@ -127,6 +128,7 @@ Status GlScene::setSunShare(const std::optional<sh::RgbCoefficients>& share) {
 
 Status GlScene::setAir(const std::optional<shade::Air>& air) {
   if (!air && !air_) return Status::ok();
+  environmentStale_ = true;  // mirrors in mirrors are seen through it
   if (air && air_ && air_->takes(*air)) return air_->set(*air);
   std::shared_ptr<GlAir> next;
   if (air) {
@@ -139,8 +141,45 @@ Status GlScene::setAir(const std::optional<shade::Air>& air) {
   return Status::ok();
 }
 
+/// Veils are averaged. The Sun is taken by as many points.
+Status GlScene::captureMirrors(const Surroundings& surroundings) {
+  if (!hasMirrors() || !GlMirrors::areIn(asset_->scene)) return Status::ok();
+  if (!mirrors_) {
+    Result<GlMirrors> made =
+        GlMirrors::make(asset_->scene, std::min(options_.mirrorSide, options_.largestTexture));
+    if (!made) return made.error();
+    mirrors_.emplace(std::move(*made));
+  }
+  const bool showsEnvironment = mirrors_->showMirrors() || mirrors_->hasVeils();
+  const bool turned =
+      environmentStale_ || environmentInMirrors_ != surroundings.environmentFromWorld;
+  if (!mirrorsStale_ && !(showsEnvironment && turned)) return Status::ok();
+  const int samples = mirrors_->hasVeils() ? std::max(surroundings.veilSamples, 1) : 1;
+  std::vector<light::SunPoint> sun;
+  if (surroundings.sun) sun = light::pointsOf(*surroundings.sun, samples);
+  GlView view;
+  view.environmentFromWorld = surroundings.environmentFromWorld;
+  mirrors_->forget();
+  for (int round = 0; round < (mirrors_->showMirrors() ? 2 : 1); ++round)
+    for (view.sample = 0; view.sample < samples; ++view.sample) {
+      if (!sun.empty()) {
+        view.sun = sun[std::size_t(view.sample)];
+        if (Status s = mapSun(*view.sun, nullptr, view.sample); !s) return s;
+      }
+      mirrors_->draw(view, surroundings.environment,
+                     [&](const GlView& face) { draw(face, surroundings.environment); });
+    }
+  mirrorsStale_ = environmentStale_ = false;
+  environmentInMirrors_ = surroundings.environmentFromWorld;
+  return checkGl("drawing what mirrors show");
+}
+
 Status GlScene::mapSun(const GlView& view) {
   if (!view.sun || view.unlit) return Status::ok();
+  return mapSun(*view.sun, &view.clipFromWorld, view.sample);
+}
+
+Status GlScene::mapSun(const light::SunPoint& sun, const Mat4* clipFromWorld, int sample) {
   if (!sunMap_) {
     Result<GlSunMap> made = GlSunMap::make(options_.largestTexture);
     if (!made) return made.error();
@@ -148,14 +187,14 @@ Status GlScene::mapSun(const GlView& view) {
   }
   glBindVertexArray(noAttributes_.name());
   colors_.bindTable();
-  sunMap_->draw(*view.sun, view, bounds_, [&] {
+  sunMap_->draw(sun, clipFromWorld, bounds_, [&] {
     const auto drawPiece = [&](std::uint32_t mesh, GLuint vertices, GLuint corners, int count) {
       const bool gaps = colors_.hasGaps(mesh) && !isPatched(mesh);
       const Program& program = gaps ? sunMap_->gapsProgram() : sunMap_->wholeProgram();
       program.use();
       if (gaps) {
         colors_.bind(program, mesh);
-        colors_.bindCoverage(program, mesh, view.sample);
+        colors_.bindCoverage(program, mesh, sample);
       }
       glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices);
       glVertexArrayElementBuffer(noAttributes_.name(), corners);
@@ -175,8 +214,9 @@ void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
     drawUnlit(view);
     return;
   }
-  const GlSunMap* sunMap = sunMap_ ? &*sunMap_ : nullptr;
-  surfaces_.draw(view, environment, colors_, sunMap, options_.showing, noAttributes_.name());
+  surfaces_.draw(view,
+                 {environment, mirrors_ ? &*mirrors_ : nullptr, sunMap_ ? &*sunMap_ : nullptr},
+                 colors_, options_.showing, noAttributes_.name());
   patches_.draw(view, noAttributes_.name());
 }
 

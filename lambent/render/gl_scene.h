@@ -8,6 +8,7 @@
 #include "lambent/render/gl_air.h"
 #include "lambent/render/gl_base_colors.h"
 #include "lambent/render/gl_environment.h"
+#include "lambent/render/gl_mirrors.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_patches.h"
 #include "lambent/render/gl_sun_map.h"
@@ -25,6 +26,7 @@ inline constexpr std::size_t kLargestBlock = std::size_t(128) << 20;
 struct GlSceneOptions {
   std::size_t largestBlock = 0;  ///< bytes of one storage buffer
   int largestTexture = 0;        ///< side, in texels
+  int mirrorSide = 512;          ///< texels along the edge of a face of what mirrors show
   shade::Showing showing;
   std::optional<sh::RgbCoefficients> sunShare;  ///< of makeLit's light, of a sharp Sun
   std::optional<shade::Air> air;                ///< before all of makeLit()'s
@@ -57,11 +59,23 @@ class GlScene {
   Status relight();
 
   bool hasMirrors() const { return surfaces_.hasMirrors(); }
+  /// What lights mirrors, beside the light that is set.
+  struct Surroundings {
+    const GlEnvironment& environment;
+    Mat3 environmentFromWorld = Mat3::Identity();
+    std::optional<light::Sun> sun = {};  ///< whose shadows are sharp
+    int veilSamples = 4;  ///< sub-samples of what mirrors show, where there are veils
+  };
+  /// Draws what mirrors show of the asset, if anything of it has changed since it was drawn, and binds
+  /// other framebuffers for that: before mapSun(). The first time it makes what it needs.
+  Status captureMirrors(const Surroundings& surroundings);
+  /// The environment is another.
+  void environmentChanged() { environmentStale_ = true; }
   /// Draws what hides view.sun, if there is one, and binds another framebuffer for that: before the
   /// frame that is drawn so.
   Status mapSun(const GlView& view);
-  /// Draws all surfaces into the bound framebuffer: as GlSurfaces::draw. Mirrors show
-  /// `environment`.
+  /// Draws all surfaces into the bound framebuffer: as GlSurfaces::draw. Mirrors show what was captured
+  /// and, where that is nothing, `environment`.
   void draw(const GlView& view, const GlEnvironment& environment) const;
 
  private:
@@ -78,6 +92,8 @@ class GlScene {
   Status addAll();
   Status retransfer(const shade::Showing& showing);
   void drawUnlit(const GlView& view) const;
+  /// As mapSun(): of what is seen through `clipFromWorld`, or of the whole asset (null).
+  Status mapSun(const light::SunPoint& sun, const Mat4* clipFromWorld, int sample);
   bool isPatched(std::uint32_t mesh) const;
   template <class Each>
   void forEachRelit(Each each) {
@@ -95,6 +111,9 @@ class GlScene {
   std::shared_ptr<GlAir> air_;
   std::optional<GlSunMap> sunMap_;  ///< made for the first sharp Sun
   bool sharpSun_ = false;
+  std::optional<GlMirrors> mirrors_;  ///< made for the first frame, if there is any to be shown
+  bool mirrorsStale_ = true, environmentStale_ = true;
+  Mat3 environmentInMirrors_ = Mat3::Identity();  ///< environmentFromWorld, as it was captured
   Program unlit_;
   VertexArray noAttributes_;
 };

@@ -30,7 +30,7 @@ GlStateGuard::GlStateGuard() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
-  for (GLuint unit = 0; unit < 3; ++unit) glBindSampler(unit, 0);
+  for (GLuint unit = 0; unit < 7; ++unit) glBindSampler(unit, 0);
 }
 
 GlStateGuard::~GlStateGuard() {

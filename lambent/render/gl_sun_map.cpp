@@ -74,12 +74,13 @@ Result<GlSunMap> GlSunMap::make(int largestTexture) {
   return map;
 }
 
-void GlSunMap::begin(const light::SunPoint& sun, const GlView& view, const scene::Box& bounds) {
+void GlSunMap::begin(const light::SunPoint& sun, const Mat4* clipFromSeen,
+                     const scene::Box& bounds) {
   frameFromWorld_ = math::worldFromTangent(sun.direction).transpose();
   scene::Box all;
   for (int k = 0; k < 8; ++k) all.extend(frameFromWorld_ * corner(bounds, k));
   scene::Box box = all;
-  const scene::Box seen = frustumBox(view.clipFromWorld, frameFromWorld_);
+  const scene::Box seen = clipFromSeen ? frustumBox(*clipFromSeen, frameFromWorld_) : scene::Box();
   if (!seen.empty()) {
     box.lower.head<2>() = box.lower.head<2>().cwiseMax(seen.lower.head<2>());
     box.upper.head<2>() = box.upper.head<2>().cwiseMin(seen.upper.head<2>());

@@ -17,14 +17,14 @@ class GlSunMap {
 
   static Result<GlSunMap> make(int largestTexture);
 
-  /// Draws the map of what `view` sees of what stands in `bounds`, as the point of the Sun `sun` looks
-  /// at it. drawPieces() draws everything, with vertices as unlit.vert.glsl has them; what is there in
+  /// Draws the map of what stands in `bounds`, as the point of the Sun `sun` looks at it: of what is
+  /// seen through `clipFromWorld`, or of all of it (null). drawPieces() draws everything, with vertices as unlit.vert.glsl has them; what is there in
   /// parts alone with gapsProgram(), whose coverage it binds, the rest with wholeProgram(). Leaves another
   /// framebuffer, viewport, depth test and program than before.
   template <class DrawPieces>
-  void draw(const light::SunPoint& sun, const GlView& view, const scene::Box& bounds,
+  void draw(const light::SunPoint& sun, const Mat4* clipFromWorld, const scene::Box& bounds,
             DrawPieces drawPieces) {
-    begin(sun, view, bounds);
+    begin(sun, clipFromWorld, bounds);
     drawPieces();
     end();
   }
@@ -36,7 +36,7 @@ class GlSunMap {
   void bindForShafts(const Program& program) const;
 
  private:
-  void begin(const light::SunPoint& sun, const GlView& view, const scene::Box& bounds);
+  void begin(const light::SunPoint& sun, const Mat4* clipFromWorld, const scene::Box& bounds);
   void end() const;
 
   Texture depth_;

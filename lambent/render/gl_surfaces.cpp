@@ -123,6 +123,7 @@ Status GlSurfaces::addProgram(const Shape& shape) {
   }
   if (kind == SurfaceKind::Mirror) {
     fragment.parts.push_back(environmentSource());
+    fragment.parts.push_back(localCaptureSource());
     if (air_) fragment.parts.push_back(airSource(false));
   }
   if (kind == SurfaceKind::Vertices || kind == SurfaceKind::Texels) include("sun_shadow.glsl");
@@ -284,10 +285,10 @@ void GlSurfaces::cullBacks(bool cull) {
   (cull ? glEnable : glDisable)(GL_CULL_FACE);
 }
 
-void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
-                      const GlBaseColors& colors, const GlSunMap* sunMap,
+void GlSurfaces::draw(const GlView& view, const Around& around, const GlBaseColors& colors,
                       const shade::Showing& showing, GLuint vertexArray) const {
   for (const Draw& draw : draws_) {
+    if (int(draw.mesh) == view.leftOut) continue;
     const scene::Material& material = materialOf(draw.mesh);
     const auto* surface = surfaceOf(draw.mesh);
     const transfer::AtTexels* grid = surface ? surface->receivers->texels() : nullptr;
@@ -319,14 +320,18 @@ void GlSurfaces::draw(const GlView& view, const GlEnvironment& environment,
       program.set("sentFromSun", sent.x(), sent.y(), sent.z());
       program.set("sunDirection", view.sun->direction.x(), view.sun->direction.y(),
                   view.sun->direction.z());
-      const bool hidden = sunMap && *direct != transfer::Kind::Unshadowed;
+      const bool hidden = around.sunMap && *direct != transfer::Kind::Unshadowed;
       program.set("sunCanHide", int(hidden));
-      if (hidden) sunMap->bind(program);
+      if (hidden) around.sunMap->bind(program);
     }
     colors.bind(program, draw.mesh);
     colors.bindCoverage(program, draw.mesh, view.sample);
     if (draw.kind == SurfaceKind::Mirror) {
-      environment.bind(program, view.environmentFromWorld);
+      around.environment.bind(program, view.environmentFromWorld);
+      if (around.mirrors)
+        around.mirrors->bind(program, draw.mesh, view.sample);
+      else
+        GlMirrors::bindNone(program);
       if (air_) air_->bindTable(program);
     }
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.vertices.name());

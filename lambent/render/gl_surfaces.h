@@ -14,6 +14,7 @@
 #include "lambent/render/gl_air.h"
 #include "lambent/render/gl_base_colors.h"
 #include "lambent/render/gl_environment.h"
+#include "lambent/render/gl_mirrors.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_sun_map.h"
 #include "lambent/render/gl_view.h"
@@ -25,7 +26,7 @@ namespace lambent::render {
 class GlSurfaces {
  public:
   /// `asset` must outlive it, and fit together (asset::faultOf).
-  /// `air`: before the ground that mirrors show; null for none.
+  /// `air`: before what mirrors show; null for none.
   GlSurfaces(const asset::Asset& asset, std::size_t largestBlock, std::shared_ptr<const GlAir> air)
       : asset_(&asset),
         passings_(scene::passingsOf(asset.scene)),
@@ -60,11 +61,16 @@ class GlSurfaces {
   }
 
   bool hasMirrors() const { return hasMirrors_; }
+  /// What surfaces show, and are lit by, beside what came of transfer.
+  struct Around {
+    const GlEnvironment& environment;    ///< in mirrors
+    const GlMirrors* mirrors = nullptr;  ///< what else they show; null: nothing
+    const GlSunMap* sunMap = nullptr;    ///< where view.sun is hidden; null: nowhere
+  };
   /// Draws them into the bound framebuffer: radiance, and in alpha what sample_alpha.glsl says. A vertex array must be bound;
-  /// its element buffer is changed. Mirrors show `environment`.
-  /// With view.sun: lit by it, where `sunMap` (null: nowhere) does not have it hidden.
-  void draw(const GlView& view, const GlEnvironment& environment, const GlBaseColors& colors,
-            const GlSunMap* sunMap, const shade::Showing& showing, GLuint vertexArray) const;
+  /// its element buffer is changed.
+  void draw(const GlView& view, const Around& around, const GlBaseColors& colors,
+            const shade::Showing& showing, GLuint vertexArray) const;
   /// Calls drawPiece(mesh, vertices, corners, count) for every piece, as GlPatches::drawUnlit.
   /// Where a mesh has backs, back faces are culled meanwhile.
   template <class DrawUnlit>

@@ -25,6 +25,7 @@ struct GlView {
   bool unlit = false;       ///< base colours alone
   bool background = false;  ///< there will be one: shafts of light stand before it too
   bool mirrored = false;    ///< the camera's matrix turns right into left
+  int leftOut = -1;         ///< the number of a mesh that is not drawn, if any
   /// The ray through this sub-sample of pixel (x, y), y from the bottom: corner + x right + y up;
   /// not unit.
   Vec3 corner, right, up;

@@ -21,6 +21,8 @@
 namespace lambent::render {
 namespace {
 
+constexpr int kQuickMirrors = 128;  ///< texels along the edge of a face
+
 shade::PictureOptions pictureOptions(const shade::Showing& showing) {
   shade::PictureOptions result;
   result.showing = showing;
@@ -58,6 +60,7 @@ scene::Box moved(const scene::Box& box, const Mat4& dstFromSrc) {
 struct LiveRenderer::Impl {
   Impl(const asset::Asset& from, const GlLimits& taken, GlScene made)
       : asset(from), bounds(scene::bounds(from.scene)), limits(taken), scene(std::move(made)) {}
+  static Result<LiveRenderer> make(const asset::Asset& asset, GlSceneOptions options);
 
   const asset::Asset& asset;
   scene::Box bounds;
@@ -115,12 +118,25 @@ LiveRenderer& LiveRenderer::operator=(LiveRenderer&&) noexcept = default;
 LiveRenderer::~LiveRenderer() = default;
 
 Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const shade::Showing& showing) {
-  return make(asset, showing, kLargestBlock);
+  GlSceneOptions options;
+  options.largestBlock = kLargestBlock;
+  options.showing = showing;
+  return Impl::make(asset, options);
 }
 
 Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const shade::Showing& showing,
                                         std::size_t largestBlock) {
-  if (Status s = shade::checkPicture(asset, sh::RgbCoefficients(1), {}, pictureOptions(showing));
+  GlSceneOptions options;
+  options.largestBlock = largestBlock;
+  options.mirrorSide = kQuickMirrors;
+  options.showing = showing;
+  return Impl::make(asset, options);
+}
+
+/// Within what this OpenGL takes.
+Result<LiveRenderer> LiveRenderer::Impl::make(const asset::Asset& asset, GlSceneOptions options) {
+  if (Status s =
+          shade::checkPicture(asset, sh::RgbCoefficients(1), {}, pictureOptions(options.showing));
       !s)
     return s.error();
   if (epoxy_gl_version() < 45)
@@ -130,11 +146,9 @@ Result<LiveRenderer> LiveRenderer::make(const asset::Asset& asset, const shade::
         epoxy_gl_version() / 10, epoxy_gl_version() % 10));
   const GlStateGuard guard;
   const GlLimits limits = limitsOfGl();
-  GlSceneOptions sceneOptions;
-  sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
-  sceneOptions.largestTexture = limits.largestTexture;
-  sceneOptions.showing = showing;
-  Result<GlScene> scene = GlScene::make(asset, sceneOptions);
+  options.largestBlock = std::min(options.largestBlock, limits.largestStorageBlock);
+  options.largestTexture = limits.largestTexture;
+  Result<GlScene> scene = GlScene::make(asset, options);
   if (!scene) return scene.error();
   return LiveRenderer(std::make_unique<Impl>(asset, limits, std::move(*scene)));
 }
@@ -153,6 +167,7 @@ Status LiveRenderer::setEnvironment(const light::Environment& environment) {
   impl_->fold();  // as it was seen
   impl_->environment = environment;
   impl_->environmentStale = true;
+  impl_->scene.environmentChanged();
   return Status::ok();
 }
 
@@ -279,6 +294,11 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
     seen.shafts = impl_->air->planes(camera, impl_->bounds);
   if (impl_->sun)
     seen.sun = light::pointsOf(*impl_->sun, samples)[std::size_t(impl_->samples % samples)];
+  if (!view.unlit) {
+    const GlScene::Surroundings surroundings{impl_->environmentOnGpu, seen.environmentFromWorld,
+                                             impl_->sun};
+    if (Status s = impl_->scene.captureMirrors(surroundings); !s) return s;
+  }
   if (Status s = impl_->scene.mapSun(seen); !s) return s;
   if (Status s = impl_->target->prepare(impl_->around(seen)); !s) return s;
   target.beginFrame();

@@ -30,14 +30,18 @@ struct LiveView {
 };
 
 /// Works in the OpenGL 4.5 context that is current when it is made (a window's, or a GlContext),
-/// which must be current in every call and outlive it. Movable. Nothing that happens once a frame
+/// which must be current in every call and outlive it. Movable. Mirrors show the asset and, between,
+/// the environment; what they show of it is drawn anew in the first frame after the light, the Sun, the
+/// air or the choice of what is shown has changed (where mirrors show mirrors or veils, the environment
+/// too), which costs about as much as six frames of 512×512 for each of them. Nothing that happens once a frame
 /// costs CPU time that grows with the asset. Leaves GL's state as it was, but for what is bound to
 /// texture units, image units and indexed storage buffers.
 class LiveRenderer {
  public:
   /// Checks and uploads everything. `asset` must outlive it. Black until there is a light.
   static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing);
-  /// The same with storage buffers of `largestBlock` bytes at most, for tests.
+  /// The same with storage buffers of `largestBlock` bytes at most, and 128 texels to a side of what
+  /// mirrors show, for tests.
   static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing,
                                    std::size_t largestBlock);
   LiveRenderer(LiveRenderer&&) noexcept;

@@ -16,6 +16,12 @@
 #include "lambent/shade/picture_frame.h"
 
 namespace lambent::render {
+namespace {
+
+constexpr int kMostVeilSamples = 16;  ///< of what mirrors show
+constexpr int kCoarseMirrors = 128;   ///< texels along the edge of a face
+
+}  // namespace
 
 struct Renderer::Impl {
   const light::Environment& environment;
@@ -27,6 +33,10 @@ struct Renderer::Impl {
   GlScene scene;
   GlEnvironment inMirrors;
 
+  static Result<Renderer> make(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                               const light::Environment& environment,
+                               const shade::PictureOptions& options, GlSceneOptions sceneOptions);
+
   /// One frame, sub-sample number `sample`, seen through `place` of every pixel, under a point of the sharp Sun, if there is one.
   Result<GlView> draw(const scene::Camera& camera, int sample, const Vec2& place,
                       const light::SunPoint* sun) {
@@ -36,6 +46,10 @@ struct Renderer::Impl {
     view.sample = sample;
     view.background = options.background;
     if (options.air && options.air->shafts) view.shafts = options.air->planes(camera, bounds);
+    GlScene::Surroundings surroundings{inMirrors};
+    if (options.sun) surroundings.sun = options.sun->sun;
+    surroundings.veilSamples = std::min(options.samples, kMostVeilSamples);
+    if (Status s = scene.captureMirrors(surroundings); !s) return s.error();
     if (Status s = scene.mapSun(view); !s) return s.error();
     target.beginFrame();
     scene.draw(view, inMirrors);
@@ -55,12 +69,25 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                 const light::Environment& environment,
                                 const shade::PictureOptions& options) {
-  return make(asset, light, environment, options, kLargestBlock);
+  GlSceneOptions sceneOptions;
+  sceneOptions.largestBlock = kLargestBlock;
+  return Impl::make(asset, light, environment, options, sceneOptions);
 }
 
 Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                 const light::Environment& environment,
                                 const shade::PictureOptions& options, std::size_t largestBlock) {
+  GlSceneOptions sceneOptions;
+  sceneOptions.largestBlock = largestBlock;
+  sceneOptions.mirrorSide = kCoarseMirrors;
+  return Impl::make(asset, light, environment, options, sceneOptions);
+}
+
+/// Of `sceneOptions` sizes are taken, within what this OpenGL takes.
+Result<Renderer> Renderer::Impl::make(const asset::Asset& asset, const sh::RgbCoefficients& light,
+                                      const light::Environment& environment,
+                                      const shade::PictureOptions& options,
+                                      GlSceneOptions sceneOptions) {
   if (Status s = shade::checkPicture(asset, light, {}, options); !s) return s.error();
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
@@ -72,8 +99,7 @@ Result<Renderer> Renderer::make(const asset::Asset& asset, const sh::RgbCoeffici
         "picture on the CPU",
         width, height, limits.largestTexture));
 
-  GlSceneOptions sceneOptions;
-  sceneOptions.largestBlock = std::min(largestBlock, limits.largestStorageBlock);
+  sceneOptions.largestBlock = std::min(sceneOptions.largestBlock, limits.largestStorageBlock);
   sceneOptions.largestTexture = limits.largestTexture;
   sceneOptions.showing = options.showing;
   if (options.sun) sceneOptions.sunShare = options.sun->share;

@@ -5,8 +5,8 @@
 // if there is a lobe, harmonics() written out (harmonics_source.h), incident.glsl, lobe.glsl;
 // base_color.glsl, with LAMBENT_ALPHA coverage.glsl, base_color_map.glsl, shading_normal.glsl,
 // texel_receivers.glsl, corner_weights.glsl, sample_alpha.glsl; for receivers sun_shadow.glsl; for
-// mirrors environment.glsl, environment_maps.glsl; LAMBENT_AIR 1 for mirrors in air, with what
-// air_texels.glsl says, or 0.
+// mirrors environment.glsl, environment_maps.glsl, local_capture.glsl; LAMBENT_AIR 1 for mirrors in
+// air, with what air_texels.glsl says, or 0.
 
 struct Vertex {
   vec4 positionU;
@@ -123,12 +123,28 @@ vec3 litRadiance() {
 
 #elif LAMBENT_KIND == 2
 
+uniform int captureSample;
+
+// Of a pixel and a sub-sample's number, in [0, 1), evenly: borders in what mirrors show have no teeth.
+float capturePhase() {
+  float pixel = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  return fract(pixel + 0.618033988 * float(captureSample));
+}
+
 vec3 litRadiance() {
-  vec3 direction = reflectedView(), shown = environmentRadiance(direction);
+  vec3 direction = reflectedView(), shown = vec3(0.0);
+  vec3 place;
+  vec4 met = capturedAlong(position, direction, place);
+  if (met.a < 1.0) {
+    shown = environmentRadiance(direction);
 #if LAMBENT_AIR
-  shown = seenBehindAir(position, direction, shown);
+    shown = seenBehindAir(position, direction, shown);
 #endif
-  return mirror * base() * shown;
+  }
+#if LAMBENT_AIR
+  if (met.a > 0.0) met.rgb = met.a * seenThroughAir(place - position, met.rgb / met.a);
+#endif
+  return mirror * base() * (met.rgb + max(1.0 - met.a, 0.0) * shown);
 }
 
 #else
