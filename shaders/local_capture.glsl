@@ -2,18 +2,57 @@
 // drawn from a place in or at the mirror, and looked up where a ray meets what was drawn: it is
 // followed across the map, by equal angles and then by halves, until it is no longer before what the
 // map has there. So what is near stands where it does, wherever on the mirror it is seen. Where a ray
-// passes behind what is in the map, nothing is known; the map along the ray's own direction stands in.
+// passes behind what is in the map, nothing is known; what the map has beside that stands in.
 
 uniform samplerCube capture;  // radiance, and in alpha the distance from captureFrom: 0 where nothing is
 uniform vec3 captureFrom;
 uniform bool hasCapture;
 
 const int kCaptureSteps = 32, kCaptureHalvings = 6;
-const float kCaptureJump = 0.05;  // of a distance: what lies that much nearer is another surface
+const float kCaptureJump = 0.1;  // of a distance: what lies that much nearer is another surface
 
+const float kCaptureAside = 3.0;  // texels, about: half of a face is as many of them
+
+// Towards the middle of the texel that lies in a direction, where the map mixes nothing.
+vec3 captureTexel(vec3 direction) {
+  vec3 size = abs(direction);
+  float largest = max(size.x, max(size.y, size.z));
+  float texels = float(textureSize(capture, 0).x);
+  vec3 at = direction / largest;
+  vec3 middle = (floor((0.5 * at + 0.5) * texels) + 0.5) * (2.0 / texels) - 1.0;
+  return mix(middle, at, vec3(greaterThanEqual(size, vec3(largest))));
+}
+
+// Interpolated over a surface, but not between one and another, or nothing.
 float capturedDistance(vec3 direction) {
-  float distance = textureLod(capture, direction, 0.0).a;
-  return distance > 0.0 ? distance : 1e30;
+  float here = textureLod(capture, captureTexel(direction), 0.0).a;
+  if (here <= 0.0) return 1e30;
+  float between = textureLod(capture, direction, 0.0).a;
+  return abs(between - here) < kCaptureJump * here ? between : here;
+}
+
+// Radiance times how much of what lies in a direction is something, and how much.
+vec4 capturedAt(vec3 direction) {
+  vec3 size = abs(direction);
+  float largest = max(size.x, max(size.y, size.z));
+  float texels = float(textureSize(capture, 0).x);
+  vec3 at = direction / largest;
+  vec3 cell = (0.5 * at + 0.5) * texels - 0.5;
+  vec3 low = floor(cell), high = cell - low;
+  vec3 axis = vec3(greaterThanEqual(size, vec3(largest)));
+  vec4 sum = vec4(0.0);
+  for (int corner = 0; corner < 4; ++corner) {
+    // The face's two axes, in the sequence of x, y, z.
+    float j = float(corner & 1), k = float(corner >> 1);
+    vec3 step_ = axis.x > 0.0 ? vec3(0.0, j, k) : axis.y > 0.0 ? vec3(j, 0.0, k) : vec3(j, k, 0.0);
+    vec3 weights = mix(1.0 - high, high, step_);
+    float weight = axis.x > 0.0 ? weights.y * weights.z
+                                : axis.y > 0.0 ? weights.x * weights.z : weights.x * weights.y;
+    vec3 d = mix((low + step_ + 0.5) * (2.0 / texels) - 1.0, at, axis);
+    vec4 texel = textureLod(capture, d, 0.0);
+    if (texel.a > 0.0) sum += weight * vec4(texel.rgb, 1.0);
+  }
+  return sum;
 }
 
 // Radiance, and 1 where the ray from `from` along a unit direction meets something; 0 where it leaves.
@@ -31,6 +70,7 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
     float whole = atan(sine, along), before = 0.0;
     // At an angle a from `start` the ray is near sin(whole) / sin(whole - a) away.
     bool wasBefore = near < capturedDistance(start);
+    vec3 beside = direction;
     for (int i = 1; i <= kCaptureSteps; ++i) {
       float angle = whole * float(i) / float(kCaptureSteps);
       vec3 d = cos(angle) * start + sin(angle) * across;
@@ -46,15 +86,18 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
         }
         vec3 at = cos(high) * start + sin(high) * across;
         float r = near * sine / max(sin(whole - high), 1e-6);
-        if (i == kCaptureSteps || r <= (1.0 + kCaptureJump) * capturedDistance(at)) {
+        if (r <= (1.0 + kCaptureJump) * capturedDistance(at)) {
           found = at;
+          beside = at;
           break;
         }
+        low = max(low - kCaptureAside / float(textureSize(capture, 0).x), 0.0);
+        beside = cos(low) * start + sin(low) * across;
       }
       wasBefore = isBefore;
       before = angle;
     }
+    if (!wasBefore) found = beside;
   }
-  vec4 seen = textureLod(capture, found, 0.0);
-  return seen.a > 0.0 ? vec4(seen.rgb, 1.0) : vec4(0.0);
+  return capturedAt(found);
 }
