@@ -11,7 +11,8 @@ uniform bool hasCapture;
 const int kCaptureSteps = 32, kCaptureHalvings = 6;
 const float kCaptureJump = 0.1;  // of a distance: what lies that much nearer is another surface
 
-const float kCaptureAside = 3.0;  // texels, about: half of a face is as many of them
+const float kCaptureThin = 0.02;  // of a distance: as thick is what has an end towards a ray
+const float kCaptureAside = 1.5;  // texels
 
 // Towards the middle of the texel that lies in a direction, where the map mixes nothing.
 vec3 captureTexel(vec3 direction) {
@@ -52,7 +53,9 @@ vec4 capturedAt(vec3 direction) {
     vec4 texel = textureLod(capture, d, 0.0);
     if (texel.a > 0.0) sum += weight * vec4(texel.rgb, 1.0);
   }
-  return sum;
+  // Borders between something and nothing lie where there is as much of both.
+  float share = clamp(4.0 * sum.a - 1.5, 0.0, 1.0);
+  return sum.a > 0.0 ? vec4(sum.rgb / sum.a * share, share) : sum;
 }
 
 // Radiance, and 1 where the ray from `from` along a unit direction meets something; 0 where it leaves.
@@ -70,6 +73,8 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
     float whole = atan(sine, along), before = 0.0;
     // At an angle a from `start` the ray is near sin(whole) / sin(whole - a) away.
     bool wasBefore = near < capturedDistance(start);
+    float texel = 2.0 / float(textureSize(capture, 0).x);  // radians, in the middle of a face
+    bool hit = false;
     vec3 beside = direction;
     for (int i = 1; i <= kCaptureSteps; ++i) {
       float angle = whole * float(i) / float(kCaptureSteps);
@@ -86,18 +91,24 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
         }
         vec3 at = cos(high) * start + sin(high) * across;
         float r = near * sine / max(sin(whole - high), 1e-6);
-        if (r <= (1.0 + kCaptureJump) * capturedDistance(at)) {
+        float last = capturedDistance(cos(low) * start + sin(low) * across);
+        float first = capturedDistance(at);
+        float next = capturedDistance(cos(high + texel) * start + sin(high + texel) * across);
+        // A surface that was there before, or one whose border is crossed, which texels have roughly.
+        float most = (1.0 + kCaptureThin) * first + min(abs(next - first), kCaptureJump * first);
+        if (r <= most || last <= (1.0 + kCaptureJump) * first) {
           found = at;
-          beside = at;
+          hit = true;
           break;
         }
-        low = max(low - kCaptureAside / float(textureSize(capture, 0).x), 0.0);
+        low = max(low - kCaptureAside * texel, 0.0);
         beside = cos(low) * start + sin(low) * across;
       }
       wasBefore = isBefore;
       before = angle;
     }
-    if (!wasBefore) found = beside;
+    if (!hit && wasBefore) return vec4(0.0);
+    if (!hit) found = beside;
   }
   return capturedAt(found);
 }
