@@ -8,107 +8,108 @@ uniform samplerCube capture;  // radiance, and in alpha the distance from captur
 uniform vec3 captureFrom;
 uniform bool hasCapture;
 
-const int kCaptureSteps = 32, kCaptureHalvings = 6;
-const float kCaptureJump = 0.1;  // of a distance: what lies that much nearer is another surface
-
-const float kCaptureThin = 0.02;  // of a distance: as thick is what has an end towards a ray
+const float kCaptureStep = 0.06;  // radians
+const int kCaptureHalvings = 6;
+const float kCaptureJump = 0.1;   // of a distance: what lies that much nearer is another surface
+const float kCaptureThin = 0.02;  // of a distance: as thick is what ends, towards a ray
 const float kCaptureAside = 1.5;  // texels
+const float kNothingCaptured = 1e30;
 
-// Towards the middle of the texel that lies in a direction, where the map mixes nothing.
-vec3 captureTexel(vec3 direction) {
+// 1 for the axis of the face that a direction lies on.
+vec3 captureAxis(vec3 direction) {
   vec3 size = abs(direction);
-  float largest = max(size.x, max(size.y, size.z));
+  return vec3(greaterThanEqual(size, vec3(max(size.x, max(size.y, size.z)))));
+}
+
+// In texels from the corner of the face; along its axis something else.
+vec3 captureCell(vec3 direction, float texels) {
+  vec3 size = abs(direction);
+  return (0.5 * direction / max(size.x, max(size.y, size.z)) + 0.5) * texels;
+}
+
+vec4 captureTexel(vec3 direction, vec3 middle, float texels) {
+  vec3 size = abs(direction);
+  vec3 at = middle * (2.0 / texels) - 1.0;
+  vec3 onFace = direction / max(size.x, max(size.y, size.z));
+  return textureLod(capture, mix(at, onFace, captureAxis(direction)), 0.0);
+}
+
+// Of the texel that lies in a direction: there the map mixes nothing.
+float captureTexelDistance(vec3 direction) {
   float texels = float(textureSize(capture, 0).x);
-  vec3 at = direction / largest;
-  vec3 middle = (floor((0.5 * at + 0.5) * texels) + 0.5) * (2.0 / texels) - 1.0;
-  return mix(middle, at, vec3(greaterThanEqual(size, vec3(largest))));
+  float here = captureTexel(direction, floor(captureCell(direction, texels)) + 0.5, texels).a;
+  return here > 0.0 ? here : kNothingCaptured;
 }
 
 // Interpolated over a surface, but not between one and another, or nothing.
-float capturedDistance(vec3 direction) {
-  float here = textureLod(capture, captureTexel(direction), 0.0).a;
-  if (here <= 0.0) return 1e30;
+float captureDistance(vec3 direction) {
+  float here = captureTexelDistance(direction);
   float between = textureLod(capture, direction, 0.0).a;
   return abs(between - here) < kCaptureJump * here ? between : here;
 }
 
-// Radiance times how much of what lies in a direction is something, and how much.
-vec4 capturedAt(vec3 direction) {
-  vec3 size = abs(direction);
-  float largest = max(size.x, max(size.y, size.z));
+// Radiance times the share of something in what lies in a direction, and that share.
+vec4 captureAt(vec3 direction) {
   float texels = float(textureSize(capture, 0).x);
-  vec3 at = direction / largest;
-  vec3 cell = (0.5 * at + 0.5) * texels - 0.5;
+  vec3 cell = captureCell(direction, texels) - 0.5, axis = captureAxis(direction);
   vec3 low = floor(cell), high = cell - low;
-  vec3 axis = vec3(greaterThanEqual(size, vec3(largest)));
+  // The two axes that the face has.
+  vec3 u = axis.x > 0.0 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+  vec3 v = axis.z > 0.0 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
   vec4 sum = vec4(0.0);
   for (int corner = 0; corner < 4; ++corner) {
-    // The face's two axes, in the sequence of x, y, z.
     float j = float(corner & 1), k = float(corner >> 1);
-    vec3 step_ = axis.x > 0.0 ? vec3(0.0, j, k) : axis.y > 0.0 ? vec3(j, 0.0, k) : vec3(j, k, 0.0);
-    vec3 weights = mix(1.0 - high, high, step_);
-    float weight = axis.x > 0.0 ? weights.y * weights.z
-                                : axis.y > 0.0 ? weights.x * weights.z : weights.x * weights.y;
-    vec3 d = mix((low + step_ + 0.5) * (2.0 / texels) - 1.0, at, axis);
-    vec4 texel = textureLod(capture, d, 0.0);
+    vec4 texel = captureTexel(direction, low + j * u + k * v + 0.5, texels);
+    float weight = mix(1.0 - dot(high, u), dot(high, u), j) * mix(1.0 - dot(high, v), dot(high, v), k);
     if (texel.a > 0.0) sum += weight * vec4(texel.rgb, 1.0);
   }
-  // Borders between something and nothing lie where there is as much of both.
+  // Borders lie where there is as much of something as of nothing.
   float share = clamp(4.0 * sum.a - 1.5, 0.0, 1.0);
-  return sum.a > 0.0 ? vec4(sum.rgb / sum.a * share, share) : sum;
+  return sum.a > 0.0 ? vec4(sum.rgb * (share / sum.a), share) : sum;
 }
 
-// Radiance, and 1 where the ray from `from` along a unit direction meets something; 0 where it leaves.
+// Radiance of what the ray from `from` along a unit direction meets, and 1; 0 where it leaves; between
+// them where borders are crossed, times the share that alpha is.
 vec4 capturedAlong(vec3 from, vec3 direction) {
   if (!hasCapture) return vec4(0.0);
-  vec3 found = direction;
-  vec3 off = from - captureFrom;
-  float near = length(off);
-  vec3 start = near > 0.0 ? off / near : direction;
-  float along = dot(start, direction);
-  vec3 across = direction - along * start;
-  float sine = length(across);
-  if (sine > 1e-3) {
-    across /= sine;
-    float whole = atan(sine, along), before = 0.0;
-    // At an angle a from `start` the ray is near sin(whole) / sin(whole - a) away.
-    bool wasBefore = near < capturedDistance(start);
-    float texel = 2.0 / float(textureSize(capture, 0).x);  // radians, in the middle of a face
-    bool hit = false;
-    vec3 beside = direction;
-    for (int i = 1; i <= kCaptureSteps; ++i) {
-      float angle = whole * float(i) / float(kCaptureSteps);
-      vec3 d = cos(angle) * start + sin(angle) * across;
-      float there = near * sine / max(sin(whole - angle), 1e-6);
-      bool isBefore = there < capturedDistance(d);
-      if (wasBefore && !isBefore) {
-        float low = before, high = angle;
-        for (int k = 0; k < kCaptureHalvings; ++k) {
-          float middle = 0.5 * (low + high);
-          vec3 m = cos(middle) * start + sin(middle) * across;
-          if (near * sine / max(sin(whole - middle), 1e-6) < capturedDistance(m)) low = middle;
-          else high = middle;
-        }
-        vec3 at = cos(high) * start + sin(high) * across;
-        float r = near * sine / max(sin(whole - high), 1e-6);
-        float last = capturedDistance(cos(low) * start + sin(low) * across);
-        float first = capturedDistance(at);
-        float next = capturedDistance(cos(high + texel) * start + sin(high + texel) * across);
-        // A surface that was there before, or one whose border is crossed, which texels have roughly.
-        float most = (1.0 + kCaptureThin) * first + min(abs(next - first), kCaptureJump * first);
-        if (r <= most || last <= (1.0 + kCaptureJump) * first) {
-          found = at;
-          hit = true;
-          break;
-        }
-        low = max(low - kCaptureAside * texel, 0.0);
-        beside = cos(low) * start + sin(low) * across;
+  vec3 off = from - captureFrom, normal = cross(off, direction);
+  float away = length(normal), near = length(off);  // of the ray, and of its beginning
+  if (away <= 1e-3 * near || near <= 0.0) return captureAt(direction);
+  // Seen from captureFrom the ray begins at `start` and ends at `direction`; in a direction between them
+  // it is `away` by the sine of what is left of the angle away.
+  normal /= away;
+  vec3 start = off / near, across = cross(normal, start);
+  float whole = atan(away, dot(off, direction));
+  int steps = int(whole / kCaptureStep) + 2;
+  float angle = whole / float(steps);
+  float texel = 2.0 / float(textureSize(capture, 0).x);  // radians, in the middle of a face
+
+  vec3 last = start, here = cos(angle) * start + sin(angle) * across, beside = direction;
+  bool wasBefore = near < captureTexelDistance(start);
+  for (int i = 1; i <= steps; ++i) {
+    float there = away / max(length(cross(here, direction)), 1e-6);
+    bool isBefore = there < captureTexelDistance(here);
+    if (wasBefore && !isBefore) {
+      vec3 low = last, high = here;
+      for (int k = 0; k < kCaptureHalvings; ++k) {
+        vec3 middle = normalize(low + high);
+        there = away / max(length(cross(middle, direction)), 1e-6);
+        if (there < captureDistance(middle)) low = middle;
+        else high = middle;
       }
-      wasBefore = isBefore;
-      before = angle;
+      // It meets a surface that was behind it, or one whose border it crosses, as texels have that.
+      there = away / max(length(cross(high, direction)), 1e-6);
+      float met = captureDistance(high), behind = captureDistance(low);
+      float slope = abs(captureDistance(high + texel * cross(normal, high)) - met);
+      if (there <= (1.0 + kCaptureThin) * met + min(slope, kCaptureJump * met) ||
+          behind <= (1.0 + kCaptureJump) * met)
+        return captureAt(high);
+      beside = low - kCaptureAside * texel * cross(normal, low);
     }
-    if (!hit && wasBefore) return vec4(0.0);
-    if (!hit) found = beside;
+    wasBefore = isBefore;
+    vec3 next = 2.0 * cos(angle) * here - last;
+    last = here;
+    here = next;
   }
-  return capturedAt(found);
+  return wasBefore ? vec4(0.0) : captureAt(beside);
 }
