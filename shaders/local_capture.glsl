@@ -11,7 +11,8 @@ uniform bool hasCapture;
 const float kCaptureStep = 0.06;  // radians
 const int kCaptureHalvings = 6;
 const float kCaptureJump = 0.1;   // of a distance: what lies that much nearer is another surface
-const float kCaptureThin = 0.02;  // of a distance: as thick is what ends, towards a ray
+// Of a distance: so thick is what ends, and so much more a surface may slope over half a texel there.
+const float kCaptureThin = 0.02, kCaptureSlope = 0.03;
 const float kCaptureAside = 1.5;  // texels
 const float kNothingCaptured = 1e30;
 
@@ -97,11 +98,11 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
         if (there < captureDistance(middle)) low = middle;
         else high = middle;
       }
-      // It meets a surface that was behind it, or one whose border it crosses, as texels have that.
+      // It meets a surface that was behind it, or the border of one.
       there = away / max(length(cross(high, direction)), 1e-6);
       float met = captureDistance(high), behind = captureDistance(low);
       float slope = abs(captureDistance(high + texel * cross(normal, high)) - met);
-      if (there <= (1.0 + kCaptureThin) * met + min(slope, kCaptureJump * met) ||
+      if (there <= (1.0 + kCaptureThin) * met + min(0.5 * slope, kCaptureSlope * met) ||
           behind <= (1.0 + kCaptureJump) * met)
         return captureAt(high);
       beside = low - kCaptureAside * texel * cross(normal, low);
