@@ -3,65 +3,67 @@
 // followed across the map, by equal angles and then by halves, until it is no longer before what the
 // map has there. So what is near stands where it does, wherever on the mirror it is seen. Where a ray
 // passes behind what is in the map, nothing is known; what the map has beside that stands in.
+//
+// The map is to be looked up without a filter: between surfaces nothing lies that is of both.
 
 uniform samplerCube capture;  // radiance, and in alpha the distance from captureFrom: 0 where nothing is
 uniform vec3 captureFrom;
 uniform bool hasCapture;
 
-const float kCaptureStep = 0.06;  // radians
+const float kCaptureStep = 0.08;  // radians
 const int kCaptureHalvings = 6;
-const float kCaptureJump = 0.1;   // of a distance: what lies that much nearer is another surface
+const float kCaptureJump = 0.1;  // of a distance: what lies that much nearer is another surface
 // Of a distance: so thick is what ends, and so much more a surface may slope over half a texel there.
 const float kCaptureThin = 0.02, kCaptureSlope = 0.03;
 const float kCaptureAside = 1.5;  // texels
 const float kNothingCaptured = 1e30;
 
-// 1 for the axis of the face that a direction lies on.
-vec3 captureAxis(vec3 direction) {
-  vec3 size = abs(direction);
-  return vec3(greaterThanEqual(size, vec3(max(size.x, max(size.y, size.z)))));
-}
-
-// In texels from the corner of the face; along its axis something else.
-vec3 captureCell(vec3 direction, float texels) {
-  vec3 size = abs(direction);
-  return (0.5 * direction / max(size.x, max(size.y, size.z)) + 0.5) * texels;
-}
-
-vec4 captureTexel(vec3 direction, vec3 middle, float texels) {
-  vec3 size = abs(direction);
-  vec3 at = middle * (2.0 / texels) - 1.0;
-  vec3 onFace = direction / max(size.x, max(size.y, size.z));
-  return textureLod(capture, mix(at, onFace, captureAxis(direction)), 0.0);
-}
-
-// Of the texel that lies in a direction: there the map mixes nothing.
-float captureTexelDistance(vec3 direction) {
-  float texels = float(textureSize(capture, 0).x);
-  float here = captureTexel(direction, floor(captureCell(direction, texels)) + 0.5, texels).a;
+float captureDistance(vec3 direction) {
+  float here = textureLod(capture, direction, 0.0).a;
   return here > 0.0 ? here : kNothingCaptured;
 }
 
+// The four texels around a direction: towards the middle of the first, from there to the others, and
+// how far the direction is on the way to them, 0 … 1.
+struct CaptureTexels {
+  vec3 first, u, v;
+  vec2 at;
+};
+
+CaptureTexels captureTexels(vec3 direction) {
+  float texels = float(textureSize(capture, 0).x);
+  vec3 size = abs(direction);
+  float largest = max(size.x, max(size.y, size.z));
+  vec3 axis = vec3(greaterThanEqual(size, vec3(largest)));  // of the face
+  vec3 onFace = direction / largest, cell = (0.5 * onFace + 0.5) * texels - 0.5, low = floor(cell);
+  CaptureTexels around;
+  around.first = mix((low + 0.5) * (2.0 / texels) - 1.0, onFace, axis);
+  around.u = axis.x > 0.0 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+  around.v = axis.z > 0.0 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+  around.at = vec2(dot(cell - low, around.u), dot(cell - low, around.v));
+  around.u *= 2.0 / texels;
+  around.v *= 2.0 / texels;
+  return around;
+}
+
 // Interpolated over a surface, but not between one and another, or nothing.
-float captureDistance(vec3 direction) {
-  float here = captureTexelDistance(direction);
-  float between = textureLod(capture, direction, 0.0).a;
+float captureDistanceBetween(vec3 direction) {
+  CaptureTexels around = captureTexels(direction);
+  float here = captureDistance(direction);
+  float between = mix(mix(captureDistance(around.first), captureDistance(around.first + around.u), around.at.x),
+                      mix(captureDistance(around.first + around.v),
+                          captureDistance(around.first + around.u + around.v), around.at.x), around.at.y);
   return abs(between - here) < kCaptureJump * here ? between : here;
 }
 
 // Radiance times the share of something in what lies in a direction, and that share.
 vec4 captureAt(vec3 direction) {
-  float texels = float(textureSize(capture, 0).x);
-  vec3 cell = captureCell(direction, texels) - 0.5, axis = captureAxis(direction);
-  vec3 low = floor(cell), high = cell - low;
-  // The two axes that the face has.
-  vec3 u = axis.x > 0.0 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
-  vec3 v = axis.z > 0.0 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+  CaptureTexels around = captureTexels(direction);
   vec4 sum = vec4(0.0);
   for (int corner = 0; corner < 4; ++corner) {
     float j = float(corner & 1), k = float(corner >> 1);
-    vec4 texel = captureTexel(direction, low + j * u + k * v + 0.5, texels);
-    float weight = mix(1.0 - dot(high, u), dot(high, u), j) * mix(1.0 - dot(high, v), dot(high, v), k);
+    vec4 texel = textureLod(capture, around.first + j * around.u + k * around.v, 0.0);
+    float weight = mix(1.0 - around.at.x, around.at.x, j) * mix(1.0 - around.at.y, around.at.y, k);
     if (texel.a > 0.0) sum += weight * vec4(texel.rgb, 1.0);
   }
   // Borders lie where there is as much of something as of nothing.
@@ -79,28 +81,29 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
   // Seen from captureFrom the ray begins at `start` and ends at `direction`; in a direction between them
   // it is `away` by the sine of what is left of the angle away.
   normal /= away;
-  vec3 start = off / near, across = cross(normal, start);
+  vec3 start = off / near;
   float whole = atan(away, dot(off, direction));
   int steps = int(whole / kCaptureStep) + 2;
-  float angle = whole / float(steps);
+  float angle = whole / float(steps), turn = 2.0 * cos(angle);
   float texel = 2.0 / float(textureSize(capture, 0).x);  // radians, in the middle of a face
 
-  vec3 last = start, here = cos(angle) * start + sin(angle) * across, beside = direction;
-  bool wasBefore = near < captureTexelDistance(start);
+  vec3 last = start, here = cos(angle) * start + sin(angle) * cross(normal, start), beside = direction;
+  // What it begins at is there as texels have it.
+  bool wasBefore = near < (1.0 + kCaptureSlope) * captureDistance(start);
   for (int i = 1; i <= steps; ++i) {
     float there = away / max(length(cross(here, direction)), 1e-6);
-    bool isBefore = there < captureTexelDistance(here);
+    bool isBefore = there < captureDistance(here);
     if (wasBefore && !isBefore) {
       vec3 low = last, high = here;
       for (int k = 0; k < kCaptureHalvings; ++k) {
         vec3 middle = normalize(low + high);
         there = away / max(length(cross(middle, direction)), 1e-6);
-        if (there < captureDistance(middle)) low = middle;
+        if (there < captureDistanceBetween(middle)) low = middle;
         else high = middle;
       }
       // It meets a surface that was behind it, or the border of one.
       there = away / max(length(cross(high, direction)), 1e-6);
-      float met = captureDistance(high), behind = captureDistance(low);
+      float met = captureDistanceBetween(high), behind = captureDistance(low);
       float slope = abs(captureDistance(high + texel * cross(normal, high)) - met);
       if (there <= (1.0 + kCaptureThin) * met + min(0.5 * slope, kCaptureSlope * met) ||
           behind <= (1.0 + kCaptureJump) * met)
@@ -108,7 +111,7 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
       beside = low - kCaptureAside * texel * cross(normal, low);
     }
     wasBefore = isBefore;
-    vec3 next = 2.0 * cos(angle) * here - last;
+    vec3 next = turn * here - last;
     last = here;
     here = next;
   }

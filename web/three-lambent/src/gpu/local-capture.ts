@@ -2,7 +2,7 @@
 
 import {
   HalfFloatType,
-  LinearFilter,
+  NearestFilter,
   NoColorSpace,
   PerspectiveCamera,
   RGBAFormat,
@@ -64,8 +64,8 @@ export class LocalCapture {
         format: RGBAFormat,
         type: HalfFloatType,
         colorSpace: NoColorSpace,
-        minFilter: LinearFilter,
-        magFilter: LinearFilter,
+        minFilter: NearestFilter,
+        magFilter: NearestFilter,
         generateMipmaps: false,
       });
     }
