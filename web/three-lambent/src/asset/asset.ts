@@ -16,7 +16,7 @@ import { canCapture } from "../gpu/local-capture.js";
 import { RttTexture } from "../gpu/rtt-texture.js";
 import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
 import type { AirMode } from "../materials/air-source.js";
-import { hasGaps, type Coverage } from "../materials/coverage.js";
+import { hasGrain, type Coverage } from "../materials/coverage.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
 import type { AerialPerspective } from "../sky/air.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
@@ -298,7 +298,7 @@ export class LambentAsset {
       this.sun.state,
       choices.air === "none" ? "" : this.air.state,
       // Grain is another one in each of the pictures that are added up.
-      this.relit.some(({ coverage }) => hasGaps(coverage)) ? sample % samples : "",
+      this.relit.some(({ coverage }) => hasGrain(coverage)) ? sample % samples : "",
       this.mirrors.count > 1 ? this.environment.state + matrixWorld.elements.join() : "",
     ].join(" ");
     if (!this.mirrors.due(state)) return;
