@@ -1,19 +1,19 @@
 // What a mirror shows of the asset it belongs to: a cube map of all other surfaces as they are lit,
-// drawn from a place in or at the mirror, and looked up where a ray meets what was drawn: it is
+// drawn from a place in or at the mirror, and looked up where a ray meets what was drawn. The ray is
 // followed across the map, by equal angles and then by halves, until it is no longer before what the
-// map has there. So what is near stands where it does, wherever on the mirror it is seen. Where a ray
-// passes behind what is in the map, nothing is known; what the map has beside that stands in.
+// map has there: so what is near stands where it does, wherever on the mirror it is seen. Where a
+// ray passes behind what is in the map, nothing is known; what the map has beside that stands in.
 //
-// The map is to be looked up without a filter: between surfaces nothing lies that is of both.
+// The map is to be looked up without a filter: nothing lies between one surface and another.
 
-uniform samplerCube capture;  // radiance, and in alpha the distance from captureFrom: 0 where nothing is
+uniform samplerCube capture;  // radiance; in alpha the distance from captureFrom, 0: nothing is there
 uniform vec3 captureFrom;
 uniform bool hasCapture;
 
 const float kCaptureStep = 0.08;  // radians
 const int kCaptureHalvings = 6;
 const float kCaptureJump = 0.1;  // of a distance: what lies that much nearer is another surface
-// Of a distance: so thick is what ends, and so much more a surface may slope over half a texel there.
+// Of a distance: so thick is what ends, and so much a surface may slope there over half a texel.
 const float kCaptureThin = 0.02, kCaptureSlope = 0.03;
 const float kCaptureAside = 1.5;  // texels
 const float kNothingCaptured = 1e30;
@@ -23,8 +23,8 @@ float captureDistance(vec3 direction) {
   return here > 0.0 ? here : kNothingCaptured;
 }
 
-// The four texels around a direction: towards the middle of the first, from there to the others, and
-// how far the direction is on the way to them, 0 … 1.
+// The four texels around a direction: towards the middle of the first, from there to the others,
+// and how far the direction is on the way to them, 0 … 1.
 struct CaptureTexels {
   vec3 first, u, v;
   vec2 at;
@@ -50,9 +50,10 @@ CaptureTexels captureTexels(vec3 direction) {
 float captureDistanceBetween(vec3 direction) {
   CaptureTexels around = captureTexels(direction);
   float here = captureDistance(direction);
-  float between = mix(mix(captureDistance(around.first), captureDistance(around.first + around.u), around.at.x),
-                      mix(captureDistance(around.first + around.v),
-                          captureDistance(around.first + around.u + around.v), around.at.x), around.at.y);
+  vec3 first = around.first, second = first + around.v;
+  float between =
+      mix(mix(captureDistance(first), captureDistance(first + around.u), around.at.x),
+          mix(captureDistance(second), captureDistance(second + around.u), around.at.x), around.at.y);
   return abs(between - here) < kCaptureJump * here ? between : here;
 }
 
@@ -71,15 +72,15 @@ vec4 captureAt(vec3 direction) {
   return sum.a > 0.0 ? vec4(sum.rgb * (share / sum.a), share) : sum;
 }
 
-// Radiance of what the ray from `from` along a unit direction meets, and 1; 0 where it leaves; between
-// them where borders are crossed, times the share that alpha is.
+// Radiance of what the ray from `from` along a unit direction meets, and 1; 0 where it leaves. At
+// borders alpha is between them, and radiance times it.
 vec4 capturedAlong(vec3 from, vec3 direction) {
   if (!hasCapture) return vec4(0.0);
   vec3 off = from - captureFrom, normal = cross(off, direction);
   float away = length(normal), near = length(off);  // of the ray, and of its beginning
   if (away <= 1e-3 * near || near <= 0.0) return captureAt(direction);
-  // Seen from captureFrom the ray begins at `start` and ends at `direction`; in a direction between them
-  // it is `away` by the sine of what is left of the angle away.
+  // Seen from captureFrom the ray begins at `start` and ends at `direction`; in a direction between
+  // them its distance is `away` by the sine of what is left of the angle.
   normal /= away;
   vec3 start = off / near;
   float whole = atan(away, dot(off, direction));
@@ -87,7 +88,8 @@ vec4 capturedAlong(vec3 from, vec3 direction) {
   float angle = whole / float(steps), turn = 2.0 * cos(angle);
   float texel = 2.0 / float(textureSize(capture, 0).x);  // radians, in the middle of a face
 
-  vec3 last = start, here = cos(angle) * start + sin(angle) * cross(normal, start), beside = direction;
+  vec3 last = start, here = cos(angle) * start + sin(angle) * cross(normal, start);
+  vec3 beside = direction;
   // What it begins at is there as texels have it.
   bool wasBefore = near < (1.0 + kCaptureSlope) * captureDistance(start);
   for (int i = 1; i <= steps; ++i) {

@@ -66,7 +66,9 @@ describe("a local capture", () => {
 
   it("shows each side of a room where it is", async () => {
     const rays = [0, 1, 2]
-      .flatMap((axis) => [1, -1].map((sign) => [0.2, 0.3, 0.4].map((v, c) => (c === axis ? sign : v))))
+      .flatMap((axis) =>
+        [1, -1].map((sign) => [0.2, 0.3, 0.4].map((v, c) => (c === axis ? sign : v))),
+      )
       .map((d) => ({ from: [0, 0, 0], direction: d.map((v) => v / Math.hypot(...d)) }));
     const seen = await look({ size: 64, from: [0, 0, 0], room }, rays);
     rays.forEach(({ from, direction }, i) => {
@@ -85,7 +87,9 @@ describe("a local capture", () => {
         apart(seen[i].place, along(from, direction, toWall(room, from, direction))),
       );
       const rms = Math.sqrt(off.reduce((sum, v) => sum + v * v, 0) / off.length);
-      console.log(`${size}: places off by ${rms.toFixed(4)}, ${Math.max(...off).toFixed(4)} at most`);
+      console.log(
+        `${size}: places off by ${rms.toFixed(4)}, ${Math.max(...off).toFixed(4)} at most`,
+      );
       assert.ok(seen.every(({ met }) => met > 0.999));
       assert.ok(rms < 0.003 && Math.max(...off) < 4 / size, `${rms}, ${Math.max(...off)}`);
     }

@@ -254,8 +254,7 @@ export class LambentAsset {
     ].join();
     if (!due && state === this.done) return false;
     const lights = this.turnLight(light, rotation.invert());
-    for (const mesh of this.relit)
-      mesh.relight(renderer, this.screen, lights, this.lobeExponent);
+    for (const mesh of this.relit) mesh.relight(renderer, this.screen, lights, this.lobeExponent);
     this.done = state;
     return true;
   }

@@ -8,8 +8,6 @@ import type { RelitMesh } from "./relit-mesh.js";
 
 /** Mirrors with a capture of their own, the largest ones; others look into the nearest. */
 const kMostCaptures = 8;
-/** Of several captures: what is drawn first shows mirrors with the environment alone. */
-const kRounds = 2;
 /** What is nearer to a capture's place is not in it, in diagonals of the mirror. */
 const kNear = 0.01;
 
@@ -104,22 +102,23 @@ export class Mirrors {
     for (const { mirrors } of this.captured) for (const mirror of mirrors) mirror.lookInto(null);
     capturing.value = true;
     try {
-      for (let round = 0; round < (this.captured.length > 1 ? kRounds : 1); ++round)
-        for (const each of this.captured) this.drawOne(renderer, each, size);
+      // Twice, so that each shows mirrors that show the asset; the last one does so at once.
+      for (const each of [...this.captured, ...this.captured.slice(0, -1)])
+        this.drawOne(renderer, each, size);
     } finally {
       capturing.value = false;
     }
     this.done = state;
   }
 
-  private drawOne(
-    renderer: WebGLRenderer,
-    { capture, mirrors }: Captured,
-    size: number,
-  ): void {
+  private drawOne(renderer: WebGLRenderer, { capture, mirrors }: Captured, size: number): void {
     this.meshes.forEach((each, i) => {
       const { geometry, material, visible } = each.mesh;
-      Object.assign(this.copies[i], { geometry, material, visible: visible && each !== mirrors[0] });
+      Object.assign(this.copies[i], {
+        geometry,
+        material,
+        visible: visible && each !== mirrors[0],
+      });
     });
     // What is drawn into cannot be looked into.
     for (const mirror of mirrors) mirror.lookInto(null);

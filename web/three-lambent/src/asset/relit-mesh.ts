@@ -168,7 +168,9 @@ export class RelitMesh {
     const { transfer, shared } = this;
     const kind = transfer ? kindOf(shared.description, transfer, choices.transfer) : "";
     const patch = transfer?.biScale ? `${choices.macro} ${choices.filter}` : "";
-    const key = choices.unlit ? "unlit" : `${kind} ${patch} ${choices.sun} ${choices.air} ${choices.captured}`;
+    const key = choices.unlit
+      ? "unlit"
+      : `${kind} ${patch} ${choices.sun} ${choices.air} ${choices.captured}`;
     const fresh = key !== this.built;
     if (fresh) {
       this.release();

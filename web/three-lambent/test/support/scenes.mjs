@@ -147,7 +147,14 @@ function standing(mesh, z) {
  */
 export const mirrorsScene = sceneGlb(
   [
-    ball({ name: "ball", center: [-0.6, 0.5, 0], radius: 0.5, material: 0, rings: 40, sectors: 60 }),
+    ball({
+      name: "ball",
+      center: [-0.6, 0.5, 0],
+      radius: 0.5,
+      material: 0,
+      rings: 40,
+      sectors: 60,
+    }),
     standing(floor({ name: "wall", half: 0.8, material: 0, cells: 2 }), -1.2),
     ball({ name: "red", center: [0.5, 0.35, 0.3], radius: 0.35, material: 1 }),
     ball({ name: "glossy", center: [0.2, 0.25, -0.6], radius: 0.25, material: 2 }),
