@@ -707,6 +707,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
         () => {},
         () => asset.setEnvironment({ texture: null, uniform: [1, 2, 3] }),
         () => asset.setEnvironment({ texture: null, uniform: [1, 2, 3] }),
+        () => scene.position.set(1, 2, 3),
         () => scene.rotateY(1),
       ]) {
         change();
@@ -721,6 +722,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     assert.deepEqual(found, [
       [true, passes + 18],
       [false, 18],
+      [false, 0],
       [false, 0],
       [true, passes + 18],
     ]);

@@ -291,14 +291,20 @@ export class LambentAsset {
     if (!(size > 0)) return this.mirrors.forget();
     const { samples, sample, ...rest } = choices;
     const { matrixWorld } = this.root;
+    const air = choices.air !== "none";
+    // What mirrors in captures show of the world.
+    const around = this.mirrors.count > 1 && [
+      this.environment.state,
+      matrixWorld.elements.slice(0, 12), // not where the asset stands
+      air && this.air.uniforms.airGround.value,
+    ];
     const state = [
-      JSON.stringify([size, rest, this.relit.map(({ mesh }) => mesh.visible)]),
+      JSON.stringify([size, rest, around, this.relit.map(({ mesh }) => mesh.visible)]),
       this.assetLight.join(),
       this.sun.state,
-      choices.air === "none" ? "" : this.air.state,
+      air ? this.air.state : "",
       // Grain is another one in each of the pictures that are added up.
       this.relit.some(({ coverage }) => hasGrain(coverage)) ? sample % samples : "",
-      this.mirrors.count > 1 ? this.environment.state + matrixWorld.elements.join() : "",
     ].join(" ");
     if (!this.mirrors.due(state)) return;
     // Mirrors see what no camera does.
