@@ -14,6 +14,7 @@ import {
   glossyScene,
   mattScene,
   mirrorScene,
+  mirrorsScene,
   texelScene,
 } from "../web/three-lambent/test/support/scenes.mjs";
 import { launch, openPage, serve, tool } from "../tests/web/viewer/session.mjs";
@@ -76,6 +77,7 @@ bake("diffuse", mattScene);
 bake("glossy", glossyScene);
 bake("texels", texelScene, "--texels", "sheet=48x40");
 bake("mirror", mirrorScene);
+bake("two-mirrors", mirrorsScene);
 // Every matrix counts in a frame, whatever was simulated: unshadowed ones take no time to make.
 bake("glossy-100000-vertices", torus(400, 250), "--transfer", "unshadowed");
 bake("landscape", hills(120), "--transfer", "shadowed");
@@ -154,7 +156,7 @@ async function landscape(name, z) {
 
 const browser = await launch();
 const rows = ["kind,what,renderer,width,height,vertices,frame_ms,ratio_to_unlit,cpu_ms"];
-for (const kind of ["diffuse", "glossy", "texels", "mirror", "bi-scale", "glossy-100000-vertices"]) {
+for (const kind of ["diffuse", "glossy", "texels", "mirror", "two-mirrors", "bi-scale", "glossy-100000-vertices"]) {
   if (!wanted(kind)) continue;
   const server = await serve(folder, [`${kind}.glb`, "light.exr"]);
   const { page, context } = await openPage(browser, server.url, {
@@ -195,6 +197,19 @@ for (const kind of ["diffuse", "glossy", "texels", "mirror", "bi-scale", "glossy
         "light stands still": () => ((asset.unlit = false), measure(false)),
         "light moves": () => ((asset.unlit = false), measure(true)),
       };
+      // What it costs that mirrors see the asset: a look-up in each frame, captures where light moves.
+      const environmentAlone = (moveLight) => {
+        asset.unlit = false;
+        const size = asset.mirrorSize;
+        asset.mirrorSize = 0;
+        const found = measure(moveLight);
+        asset.mirrorSize = size;
+        return found;
+      };
+      if (asset.kinds.has("mirror")) {
+        ways["light stands still; environment alone"] = () => environmentAlone(false);
+        ways["light moves; environment alone"] = () => environmentAlone(true);
+      }
       const times = Object.fromEntries(Object.keys(ways).map((way) => [way, []]));
       for (const way of Object.values(ways)) way(); // shaders are compiled
       for (let round = 0; round < rounds; ++round)
@@ -224,6 +239,12 @@ for (const kind of ["diffuse", "glossy", "texels", "mirror", "bi-scale", "glossy
       frame.toFixed(3), ratio.toFixed(2), work.toFixed(3)].join(","));
     console.log(`${kind}, ${way}: ${frame.toFixed(2)} ms, ${ratio.toFixed(2)} × unlit; ` +
       `${work.toFixed(2)} ms of it on the CPU's side`);
+  }
+  for (const way of ["light stands still", "light moves"]) {
+    const without = found.times[`${way}; environment alone`];
+    if (without)
+      console.log(`${kind}, ${way}: ${(found.times[way].frame / without.frame).toFixed(2)} × ` +
+        "with mirrors that show the environment alone");
   }
 }
 if (wanted("landscape")) {

@@ -1,5 +1,6 @@
 // Pictures of every kind of asset in headless Chromium against those of the CPU: the mean difference
-// is at most 1/255 of the tone-mapped range, of the whole picture and of the asset's own pixels.
+// is at most 1/255 of the tone-mapped range, of the whole picture and of the asset's own pixels; where
+// mirrors see mirrors, of which captures know one side, at most kMirrorsBound.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -15,12 +16,14 @@ import {
   leafScene,
   mattScene,
   mirrorScene,
+  mirrorsScene,
   sheetScene,
   texelScene,
 } from "./support/scenes.mjs";
 import { lambent, noTool } from "./support/tool.mjs";
 
 const kSize = 256;
+const kMirrorsBound = 5;
 const kDegree = Math.PI / 180;
 
 /** About the vertical, counter-clockwise seen from above, as the tool's --rotate-y. */
@@ -42,6 +45,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       matt: mattScene,
       glossy: glossyScene,
       mirror: mirrorScene,
+      mirrors: mirrorsScene,
       sheet: sheetScene,
       leaf: leafScene,
       texel: texelScene,
@@ -73,6 +77,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     bake("matt", "matt-unshadowed", "--transfer", "unshadowed");
     bake("glossy", "glossy-unshadowed", "--transfer", "unshadowed");
     bake("mirror", "mirror");
+    bake("mirrors", "mirrors", "--keep-shadowed");
     bake("sheet", "sheet");
     bake("leaf", "leaf");
     bake("texel", "texel", "--texels", "sheet=48x40");
@@ -185,7 +190,14 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
   }
 
   /** The tool's picture and the page's. `options` go to the tool, `state` to the page. */
-  async function agree(name, asset, options = [], state = {}, source = "environment.exr") {
+  async function agree(
+    name,
+    asset,
+    options = [],
+    state = {},
+    source = "environment.exr",
+    bound = 1,
+  ) {
     const truth = `truth-${name}.png`;
     renderTruth(truth, asset, source, options, state.background !== false);
     const found = await browser.page.evaluate((s) => window.compare(s), {
@@ -212,7 +224,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       found.covered > 0.1 && found.brightness > 10,
       `covered ${found.covered}, brightness ${found.brightness}`,
     );
-    assert.ok(found.own <= 1 && found.all <= 1, `${name}: ${found.own}/255, ${found.all}/255`);
+    assert.ok(found.own <= bound && found.all <= bound, `${name}: ${found.own}/255, ${found.all}/255`);
     return found;
   }
 
@@ -420,6 +432,45 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       assert.ok(other.all > 3 * found.all, `${other.all}/255 without, ${found.all}/255 with`);
     });
 
+  // Mirrors between coloured things: each picture, and that it is what the captures make it.
+  for (const [name, options, state, source] of [
+    ["as they stand", [], {}],
+    ["the environment turned", ["--rotate-y", 70], { environmentRotation: aboutY(70) }],
+    [
+      "the object turned and moved",
+      ["--rotate-y", -50],
+      { objectRotation: aboutY(50), objectTranslation: [3, -1, 2] },
+    ],
+    [
+      "under a sharp Sun",
+      ["--exposure", -3],
+      { exposure: -3, discs: [sunAt(200, 50).disc], sharpSun: true },
+      sunAt(200, 50).source,
+    ],
+    [
+      "through the air",
+      ["--air", "--metres-per-unit", 1000, "--exposure", -4.5],
+      {
+        sky: { sunElevation: 30 * kDegree, sunAzimuth: 140 * kDegree },
+        air: { metresPerUnit: 1000 },
+        ...{ sharpSun: true, exposure: -4.5 },
+      },
+      "sky:sun-elevation=30,sun-azimuth=140",
+    ],
+  ])
+    it(`mirrors that see the asset, ${name}`, async () => {
+      const stem = `mirrors-${name.replaceAll(" ", "-")}`;
+      const found = await agree(stem, "mirrors.glb", options, state, source, kMirrorsBound);
+      const without = await browser.page.evaluate((s) => window.compare(s), {
+        ...{ asset: "mirrors.glb", truth: `truth-${stem}.png`, size: kSize, background: true },
+        ...(!state.sky && { environment: "environment.exr" }),
+        ...state,
+        asset_: { mirrorSize: 0 },
+      });
+      console.log(`${stem}: ${without.own.toFixed(3)}/255 with the environment alone`);
+      assert.ok(without.own > 1.5 * found.own, `${found.own}/255, ${without.own}/255 without`);
+    });
+
   // Beside and upon each other, a sun, half of the sphere, and all of it.
   for (const turn of [0, 70])
     it(`as many discs as there can be${turn ? ", the map turned" : ""}`, () => {
@@ -599,41 +650,202 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     assert.deepEqual(updates, [yes, no, yes, no, yes, no, no, yes, no, yes, no, no, yes]);
   });
 
-  it("comes back after the context was lost", async () => {
-    const [before, after] = await browser.page.evaluate(async () => {
-      const { THREE, lambent } = window;
-      const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
-      renderer.setSize(64, 64);
-      const { scene, userData } = await window.load("patch.glb");
+  it("captures what mirrors see when that changes, not when the camera or the object moves", async () => {
+    const found = await browser.page.evaluate(async () => {
+      const { THREE, lambent, renderer } = window;
+      const { scene, userData } = await window.load("mirror.glb");
       const asset = userData.lambent;
-      asset.setLight(lambent.LambentLight.uniform([1, 1, 1]));
       const camera = new THREE.PerspectiveCamera();
       lambent.frameAutomatically(scene, camera, 1);
-      const draw = () => {
-        asset.update(renderer);
-        renderer.render(scene, camera);
-        const gl = renderer.getContext();
-        const bytes = new Uint8Array(4 * 64 * 64);
-        gl.readPixels(0, 0, 64, 64, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-        return bytes.reduce((a, b) => a + b, 0);
+      const light = lambent.LambentLight.uniform([1, 1, 1]).addDisc({
+        ...{ direction: new THREE.Vector3(1, 1, 0), diameter: 0.5, radiance: [9, 9, 9] },
+      });
+      asset.setLight(light);
+      /** What a change takes in pictures, of which a capture is six. */
+      const out = {};
+      const takes = (name, change) => {
+        change();
+        const before = renderer.info.render.frame;
+        asset.update(renderer, camera);
+        out[name] = renderer.info.render.frame - before;
       };
-      const sums = [draw()];
-      const restored = new Promise((done) =>
-        renderer.domElement.addEventListener("webglcontextrestored", () => setTimeout(done, 0)),
-      );
-      renderer.forceContextLoss();
-      await new Promise((done) => setTimeout(done, 50));
-      renderer.forceContextRestore();
-      await restored;
-      sums.push(draw());
+      takes("first", () => {});
+      takes("nothing", () => {});
+      takes("the camera", () => camera.position.multiplyScalar(0.9));
+      takes("the object", () => scene.position.set(3, 0, 1));
+      takes("samples", () => ((asset.samples = 4), (asset.sample = 3)));
+      takes("the light as it was", () => asset.setLight(light.clone()));
+      takes("the environment, of one mirror", () => asset.setEnvironment({ texture: null, uniform: [1, 2, 3] }));
+      takes("the light", () => light.scale(2) && asset.setLight(light));
+      takes("its turn", () => (scene.rotation.y = 1));
+      takes("size", () => (asset.mirrorSize = 64));
+      takes("a mesh", () => (scene.children[1].visible = false));
+      takes("a choice", () => (asset.transfer = "unshadowed"));
+      takes("off", () => (asset.mirrorSize = 0));
+      takes("on", () => (asset.mirrorSize = 32));
       asset.dispose();
-      renderer.dispose();
-      return sums;
+      return out;
     });
-    browser.problems(); // three tells of the loss itself
-    assert.ok(before > 64 * 64 * 255, "something was lit");
-    assert.equal(after, before);
+    const relit = found["the light as it was"]; // a pass for each mesh that is not a mirror
+    assert.equal(relit, 2);
+    assert.deepEqual(found, {
+      ...{ first: relit + 6, nothing: 0, "the camera": 0, "the object": 0, samples: 0 },
+      ...{ "the light as it was": relit, "the environment, of one mirror": 0 },
+      ...{ "the light": relit + 6, "its turn": relit + 6, size: 6, "a mesh": 6 },
+      ...{ "a choice": relit + 6, off: relit, on: relit + 6 },
+    });
   });
+
+  it("captures again where mirrors see mirrors, and with the environment", async () => {
+    const found = await browser.page.evaluate(async () => {
+      const { lambent, renderer } = window;
+      const { scene, userData } = await window.load("mirrors.glb");
+      const asset = userData.lambent;
+      asset.setLight(lambent.LambentLight.uniform([1, 1, 1]));
+      const out = [];
+      for (const change of [
+        () => {},
+        () => asset.setEnvironment({ texture: null, uniform: [1, 2, 3] }),
+        () => asset.setEnvironment({ texture: null, uniform: [1, 2, 3] }),
+        () => scene.position.set(1, 2, 3),
+        () => scene.rotateY(1),
+      ]) {
+        change();
+        const before = renderer.info.render.frame;
+        const relit = asset.update(renderer);
+        out.push([relit, renderer.info.render.frame - before]);
+      }
+      asset.dispose();
+      return out;
+    });
+    const passes = found[0][1] - 18; // one capture, the other, and the first with what that shows
+    assert.deepEqual(found, [
+      [true, passes + 18],
+      [false, 18],
+      [false, 0],
+      [false, 0],
+      [true, passes + 18],
+    ]);
+    assert.ok(passes >= 4 && passes < 10, `${passes} passes`);
+  });
+
+  it("leaves the renderer as it was", async () => {
+    const [before, after] = await browser.page.evaluate(async () => {
+      const { THREE, lambent } = window;
+      const renderer = new THREE.WebGLRenderer();
+      const gl = renderer.getContext();
+      renderer.setSize(64, 48);
+      const { userData } = await window.load("mirrors.glb");
+      const asset = userData.lambent;
+      asset.setLight(lambent.LambentLight.uniform([1, 1, 1]));
+      const cube = new THREE.WebGLCubeRenderTarget(32);
+      renderer.setViewport(3, 4, 50, 40);
+      renderer.setScissor(5, 6, 30, 20);
+      renderer.setScissorTest(true);
+      renderer.setClearColor(0x336699, 0.25);
+      renderer.toneMapping = THREE.ReinhardToneMapping;
+      renderer.toneMappingExposure = 3;
+      renderer.autoClear = true;
+      renderer.xr.enabled = true;
+      renderer.clippingPlanes = [new THREE.Plane(new THREE.Vector3(0, 1, 0), 0.1)];
+      const state = () => ({
+        target: renderer.getRenderTarget() === cube,
+        face: renderer.getActiveCubeFace(),
+        viewport: renderer.getViewport(new THREE.Vector4()).toArray(),
+        currentViewport: renderer.getCurrentViewport(new THREE.Vector4()).toArray(),
+        scissor: renderer.getScissor(new THREE.Vector4()).toArray(),
+        scissorTest: renderer.getScissorTest(),
+        clear: [renderer.getClearColor(new THREE.Color()).getHex(), renderer.getClearAlpha()],
+        tone: [renderer.toneMapping, renderer.toneMappingExposure, renderer.outputColorSpace],
+        clears: [renderer.autoClear, renderer.autoClearColor, renderer.autoClearDepth],
+        xr: renderer.xr.enabled,
+        planes: renderer.clippingPlanes.length,
+        gl: [...gl.getParameter(gl.VIEWPORT), ...gl.getParameter(gl.SCISSOR_BOX)],
+      });
+      const all = [[], []];
+      for (const target of [null, cube]) {
+        renderer.setRenderTarget(target, target ? 2 : 0);
+        renderer.clear();
+        all[0].push(state());
+        asset.mirrorSize = target ? 16 : 32; // captured anew
+        asset.update(renderer);
+        all[1].push(state());
+      }
+      asset.dispose();
+      cube.dispose();
+      renderer.dispose();
+      return all;
+    });
+    assert.deepEqual(after, before);
+  });
+
+  it("shows the environment alone where halves cannot be drawn", async () => {
+    const [without, off, on] = await browser.page.evaluate(async () => {
+      const { renderer } = window;
+      const state = { asset: "mirrors.glb", size: 64, environment: "environment.exr", background: true };
+      const sum = async (more) => (await window.draw({ ...state, ...more })).bytes.join();
+      const { has } = renderer.extensions;
+      renderer.extensions.has = (name) => !name.startsWith("EXT_color_buffer") && has(name);
+      const without = await sum({});
+      renderer.extensions.has = has;
+      return [without, await sum({ asset_: { mirrorSize: 0 } }), await sum({})];
+    });
+    assert.equal(without, off);
+    assert.notEqual(on, off);
+  });
+
+  it("has no word of mirrors in the programs of assets without them", async () => {
+    const found = await browser.page.evaluate(async () => {
+      const out = {};
+      for (const name of ["matt", "patch", "mirror"]) {
+        const { scene, userData } = await window.load(`${name}.glb`);
+        userData.lambent.update(window.renderer);
+        out[name] = scene.children.map(({ material }) => material.fragmentShader.includes("bool capturing"));
+        userData.lambent.dispose();
+      }
+      return out;
+    });
+    assert.ok(![...found.matt, ...found.patch].includes(true));
+    assert.ok(!found.mirror.includes(false));
+  });
+
+  for (const file of ["patch.glb", "mirrors.glb"])
+    it(`comes back after the context was lost: ${file}`, async () => {
+      const [before, after] = await browser.page.evaluate(async (file) => {
+        const { THREE, lambent } = window;
+        const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
+        renderer.setSize(64, 64);
+        const { scene, userData } = await window.load(file);
+        const asset = userData.lambent;
+        asset.setLight(lambent.LambentLight.uniform([1, 1, 1]));
+        asset.mirrorSize = 32;
+        const camera = new THREE.PerspectiveCamera();
+        lambent.frameAutomatically(scene, camera, 1);
+        const draw = () => {
+          asset.update(renderer);
+          renderer.render(scene, camera);
+          const gl = renderer.getContext();
+          const bytes = new Uint8Array(4 * 64 * 64);
+          gl.readPixels(0, 0, 64, 64, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+          return bytes.reduce((a, b) => a + b, 0);
+        };
+        const sums = [draw()];
+        const restored = new Promise((done) =>
+          renderer.domElement.addEventListener("webglcontextrestored", () => setTimeout(done, 0)),
+        );
+        renderer.forceContextLoss();
+        await new Promise((done) => setTimeout(done, 50));
+        renderer.forceContextRestore();
+        await restored;
+        sums.push(draw());
+        asset.dispose();
+        renderer.dispose();
+        return sums;
+      }, file);
+      browser.problems(); // three tells of the loss itself
+      assert.ok(before > 64 * 64 * 255, "something was lit");
+      assert.equal(after, before);
+    });
 
   it("a damaged file is an error of the load, in words", async () => {
     const messages = await browser.page.evaluate(async () => {
@@ -697,7 +909,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       sky: { sunElevation: 0.5 },
       air: { metresPerUnit: 100, shafts: true },
     };
-    for (const what of [{ asset: "patch.glb" }, sunny]) {
+    for (const what of [{ asset: "patch.glb" }, { asset: "mirrors.glb", asset_: { mirrorSize: 32 } }, sunny]) {
       const state = { ...what, truth: "truth-patch.png", size: kSize };
       const first = await browser.page.evaluate((s) => window.compare(s), state);
       const second = await browser.page.evaluate((s) => window.compare(s), state);

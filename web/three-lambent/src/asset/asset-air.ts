@@ -16,6 +16,7 @@ import { kAirSize } from "../sky/air_data.js";
 import type { QuaternionLike } from "../light/light.js";
 import type { AerialPerspective } from "../sky/air.js";
 import type { SunMap } from "../gpu/sun-map.js";
+import { stateOf } from "../materials/uniform-state.js";
 
 export interface AirOptions {
   /** Metres in one unit of the world. Default 1. */
@@ -106,6 +107,18 @@ export class AssetAir {
     u.airScale.value = air.scale;
     u.towardsSun.value.set(Math.cos(air.sunElevation), Math.sin(air.sunElevation), 0);
     u.aerosolPhase.value.set(kCornetteShanks, asymmetry, 0, 0);
+  }
+
+  /** Tells all of it that lies before what is seen from anywhere in the asset. */
+  get state(): string {
+    const { airTable, airShell, airScale, towardsSun, aerosolPhase, ...u } = this.uniforms;
+    const air = [airTable, airShell, airScale, towardsSun, aerosolPhase];
+    return stateOf([...air, u.sunFromWorld, u.metresPerUnit]);
+  }
+
+  /** Shafts of light lie before a camera alone. */
+  lookWithoutShafts(): void {
+    this.uniforms.shaftDepths.value.set(0, 0);
   }
 
   /**

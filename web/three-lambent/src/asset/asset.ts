@@ -12,16 +12,18 @@ import {
 } from "three";
 import type { AssetDescription } from "../format/description.js";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
+import { canCapture } from "../gpu/local-capture.js";
 import { RttTexture } from "../gpu/rtt-texture.js";
 import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
 import type { AirMode } from "../materials/air-source.js";
-import type { Coverage } from "../materials/coverage.js";
+import { hasGrain, type Coverage } from "../materials/coverage.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
 import type { AerialPerspective } from "../sky/air.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
 import { infoOf, kindsOf, type AssetInfo, type AssetKind } from "./info.js";
 import { AssetAir, type AirOptions } from "./asset-air.js";
 import { offers, type TransferChoice } from "./choices.js";
+import { capturedUniforms, Mirrors } from "./mirrors.js";
 import type { Reflectance } from "./reflectance.js";
 import { RelitMesh, type Choices, type IncidentMode, type Lights } from "./relit-mesh.js";
 import { kindWithoutBounces, SharpSun, sunNotes } from "./sharp-sun.js";
@@ -58,6 +60,11 @@ export class LambentAsset {
   filter = true;
   /** Exponent of glossy lobes, ≥ 0; null: the materials' own. Default null. */
   lobeExponent: number | null = null;
+  /**
+   * Texels of a side of the cube maps in which mirrors see the asset itself; 0: they show the
+   * environment alone, as they do on devices that cannot draw into half floats. Default 256.
+   */
+  mirrorSize = 256;
   /** The base colour alone, which costs what any unlit mesh costs. Default false. */
   unlit = false;
   /** Pictures of a pixel that the caller adds up: filters are as much narrower. Default 1. */
@@ -77,6 +84,7 @@ export class LambentAsset {
   private readonly assetLight: Float64Array;
   private readonly sunShare: Float64Array;
   private readonly sun: SharpSun;
+  private readonly mirrors: Mirrors;
   private done = "";
   private lost: { canvas: EventTarget; listener: () => void } | null = null;
 
@@ -92,11 +100,13 @@ export class LambentAsset {
     this.rotation = new HarmonicRotation(description.bands);
     this.assetLight = new Float64Array(3 * description.bands ** 2);
     this.sunShare = new Float64Array(3 * description.bands ** 2);
+    const captured = capturedUniforms();
     const shared = {
       description,
       incident,
       environment: this.environment,
       air: this.air.uniforms,
+      captured,
       rtt: (index: number) => this.rtt(index),
     };
     this.relit = entries.map(
@@ -112,6 +122,7 @@ export class LambentAsset {
     );
     this.sun = new SharpSun(this.relit);
     for (const mesh of this.relit) mesh.sunUniforms = this.sun.uniforms;
+    this.mirrors = new Mirrors(this.relit, this.sun.map.bounds, captured);
     this.kinds = kindsOf(this.relit);
     this.info = infoOf(description, this.relit);
     assets.set(root, this);
@@ -216,11 +227,21 @@ export class LambentAsset {
       sample: this.sample,
       sun: this.sun.shines,
       air: this.airMode,
+      captured: this.captureSize(renderer) > 0,
     };
     let due = false;
     for (const mesh of this.relit) due = mesh.prepare(renderer, choices) || due;
     this.root.updateWorldMatrix(true, false);
-    if (!this.unlit) this.look(renderer, camera);
+    if (this.unlit) return false;
+    this.sun.aim(this.root, this.sample, this.samples);
+    this.air.look(this.root);
+    const relit = this.relight(renderer, due);
+    this.showMirrors(renderer, choices);
+    this.look(renderer, camera);
+    return relit;
+  }
+
+  private relight(renderer: WebGLRenderer, due: boolean): boolean {
     this.root.matrixWorld.decompose(translation, rotation, scale);
     const { light } = this;
     const state = [
@@ -231,10 +252,9 @@ export class LambentAsset {
       rotation.z,
       rotation.w,
     ].join();
-    if (this.unlit || (!due && state === this.done)) return false;
+    if (!due && state === this.done) return false;
     const lights = this.turnLight(light, rotation.invert());
-    for (const mesh of this.relit)
-      mesh.relight(renderer, this.screen, lights, this.lobeExponent);
+    for (const mesh of this.relit) mesh.relight(renderer, this.screen, lights, this.lobeExponent);
     this.done = state;
     return true;
   }
@@ -259,11 +279,47 @@ export class LambentAsset {
     return this.air.shafts && this.sun.shines ? "shafts" : "air";
   }
 
+  /** 0: mirrors see nothing of the asset. */
+  private captureSize(renderer: WebGLRenderer): number {
+    if (this.mirrors.count === 0 || !canCapture(renderer)) return 0;
+    return Math.min(Math.floor(this.mirrorSize), renderer.capabilities.maxCubemapSize);
+  }
+
+  /** Captures what mirrors see, if that has changed. */
+  private showMirrors(renderer: WebGLRenderer, choices: Choices): void {
+    const size = this.captureSize(renderer);
+    if (!(size > 0)) return this.mirrors.forget();
+    const { samples, sample, ...rest } = choices;
+    const { matrixWorld } = this.root;
+    const air = choices.air !== "none";
+    // What mirrors in captures show of the world.
+    const around = this.mirrors.count > 1 && [
+      this.environment.state,
+      matrixWorld.elements.slice(0, 12), // not where the asset stands
+      air && this.air.uniforms.airGround.value,
+    ];
+    const state = [
+      JSON.stringify([size, rest, around, this.relit.map(({ mesh }) => mesh.visible)]),
+      this.assetLight.join(),
+      this.sun.state,
+      air ? this.air.state : "",
+      // Grain is another one in each of the pictures that are added up.
+      this.relit.some(({ coverage }) => hasGrain(coverage)) ? sample % samples : "",
+    ].join(" ");
+    if (!this.mirrors.due(state)) return;
+    // Mirrors see what no camera does.
+    if (this.needsSunMap) this.sun.drawMap(renderer, this.root, undefined);
+    this.air.lookWithoutShafts();
+    this.mirrors.draw(renderer, state, matrixWorld, size, meanRadiance(this.assetLight));
+  }
+
+  private get needsSunMap(): boolean {
+    return this.relit.some((mesh) => mesh.needsSunMap);
+  }
+
   private look(renderer: WebGLRenderer, camera: Camera | undefined): void {
     const shafts = this.airMode === "shafts";
-    const hides = shafts || this.relit.some((mesh) => mesh.needsSunMap);
-    this.sun.look(renderer, this.root, camera, [this.sample, this.samples], hides);
-    this.air.look(this.root);
+    if (shafts || this.needsSunMap) this.sun.drawMap(renderer, this.root, camera);
     if (shafts) this.air.lookForShafts(this.root, camera, this.sun.map.bounds, this.sun.map);
   }
 
@@ -285,6 +341,7 @@ export class LambentAsset {
       for (const rtt of this.rtts.values()) rtt.dispose();
       this.rtts.clear();
       this.sun.map.forget();
+      this.mirrors.forget();
       this.done = "";
     };
     if (this.lost) {
@@ -307,6 +364,7 @@ export class LambentAsset {
     this.rtts.clear();
     this.environment.dispose();
     this.sun.map.dispose();
+    this.mirrors.forget();
     this.screen.dispose();
     this.root.removeFromParent();
     assets.delete(this.root);
@@ -316,6 +374,10 @@ export class LambentAsset {
 const translation = new Vector3();
 const rotation = new Quaternion();
 const scale = new Vector3();
+
+/** The largest of the channels' means over all directions. */
+const meanRadiance = (light: ArrayLike<number>) =>
+  Math.max(Math.abs(light[0]), Math.abs(light[1]), Math.abs(light[2])) / Math.sqrt(4 * Math.PI);
 
 /** A loaded material with its textures; pictures that the browser decoded are closed. */
 function disposeMaterial(material: Material): void {

@@ -9,6 +9,7 @@ import {
   RGIntegerFormat,
   UnsignedShortType,
   Vector3,
+  type CubeTexture,
   type IUniform,
   type Material,
   type Mesh,
@@ -54,6 +55,8 @@ export interface Choices {
   /** There is a Sun whose shadows are sharp. */
   sun: boolean;
   air: AirMode;
+  /** Mirrors see the asset. */
+  captured: boolean;
 }
 
 /** [coefficient][3], in the asset's frame: of all light, of a sharp Sun's share, and of the rest. */
@@ -71,6 +74,7 @@ export interface Shared {
   description: AssetDescription;
   environment: EnvironmentUniforms;
   air: Record<string, IUniform>;
+  captured: Record<string, IUniform>;
   incident: IncidentMode;
   /** On the GPU when first asked for. */
   rtt(index: number): RttTexture;
@@ -102,6 +106,12 @@ export class RelitMesh {
   readonly original: Material;
   /** Of the asset's Sun. */
   sunUniforms: Record<string, IUniform> = {};
+  /** Of shaders/local_capture.glsl. */
+  private readonly captureUniforms = {
+    capture: { value: null as CubeTexture | null },
+    captureFrom: { value: new Vector3() },
+    hasCapture: { value: false },
+  };
   /** Whether something hides a sharp Sun from what is shown. */
   needsSunMap = false;
 
@@ -158,7 +168,9 @@ export class RelitMesh {
     const { transfer, shared } = this;
     const kind = transfer ? kindOf(shared.description, transfer, choices.transfer) : "";
     const patch = transfer?.biScale ? `${choices.macro} ${choices.filter}` : "";
-    const key = choices.unlit ? "unlit" : `${kind} ${patch} ${choices.sun} ${choices.air}`;
+    const key = choices.unlit
+      ? "unlit"
+      : `${kind} ${patch} ${choices.sun} ${choices.air} ${choices.captured}`;
     const fresh = key !== this.built;
     if (fresh) {
       this.release();
@@ -177,23 +189,39 @@ export class RelitMesh {
     const { transfer, reflectance, map, colored, uv, shared } = this;
     const gaps = hasGaps(this.coverage);
     const plain = { map, colored, uv, gaps };
-    const { air } = choices;
+    const { air, captured } = choices;
     const covered = gaps ? coverageUniforms(this.coverage, this.number) : {};
-    const throughAir = { ...covered, ...(air === "none" ? {} : shared.air) };
+    const uniforms = { ...covered, ...this.surroundings(choices) };
     if (choices.unlit) {
       this.show(makeSurfaceMaterial({ kind: "unlit", ...plain }, covered));
       this.material!.uniforms.reflectance.value.set(...reflectance.base);
     } else if (this.isMirror) {
-      const uniforms = { ...shared.environment.uniforms, ...throughAir };
-      this.show(makeSurfaceMaterial({ kind: "mirror", ...plain, air }, uniforms));
+      Object.assign(uniforms, shared.environment.uniforms, this.captureUniforms);
+      this.show(makeSurfaceMaterial({ kind: "mirror", ...plain, air, captured }, uniforms));
       this.material!.uniforms.reflectance.value.set(...reflectance.mirror);
     } else if (transfer?.biScale) {
       this.buildPatch(renderer, choices);
     } else if (transfer && (transfer.vectors || transfer.matrices)) {
       this.buildSurface(renderer, transfer, choices);
     } else {
-      this.show(makeSurfaceMaterial({ kind: "black", ...plain, air }, throughAir));
+      this.show(makeSurfaceMaterial({ kind: "black", ...plain, air, captured }, uniforms));
     }
+  }
+
+  /** Of what the asset is seen through, and by. */
+  private surroundings({ air, captured }: Choices): Record<string, IUniform> {
+    return {
+      ...(air !== "none" && this.shared.air),
+      ...(captured && this.shared.captured),
+    };
+  }
+
+  /** What a mirror shows of the asset; `from` times captureScale. null: nothing. */
+  lookInto(capture: { texture: CubeTexture; from: Vector3 } | null): void {
+    const { captureUniforms: u } = this;
+    u.capture.value = capture?.texture ?? null;
+    u.hasCapture.value = capture !== null;
+    if (capture) u.captureFrom.value.copy(capture.from);
   }
 
   private show(material: RelitMaterial): void {
@@ -261,7 +289,7 @@ export class RelitMesh {
       uniforms.incidentLit = { value: texture.target.texture };
       uniforms.incidentALine = { value: texture.receiversALine };
     }
-    if (choices.air !== "none") Object.assign(uniforms, this.shared.air);
+    Object.assign(uniforms, this.surroundings(choices));
     if (grid) uniforms.grid = { value: Int32Array.of(grid.width, grid.height) };
     const fetch = !grid && lobeBands > 0 && this.mustFetch(renderer, lobeBands ** 2);
     this.mesh.geometry = fetch ? this.expand() : this.geometry;
@@ -272,6 +300,7 @@ export class RelitMesh {
       sun: direct && (direct === "unshadowed" ? ("open" as const) : ("hidden" as const)),
       sunShare: apart !== null && apart,
       air: choices.air,
+      captured: choices.captured,
       ...{ albedoOutside, lobeBands, fetch, map, colored, uv, gaps },
     };
     this.show(makeSurfaceMaterial(shape, uniforms));
@@ -340,8 +369,9 @@ export class RelitMesh {
       filter: choices.filter,
       idMap: biScale.idMap !== null,
       air: choices.air,
+      captured: choices.captured,
     };
-    if (choices.air !== "none") Object.assign(uniforms, this.shared.air);
+    Object.assign(uniforms, this.surroundings(choices));
     this.show(makePatchMaterial(shape, uniforms));
   }
 

@@ -7,6 +7,7 @@ import type { AssetDescription, PrimitiveTransfer, TransferKind } from "../forma
 import { SunMap } from "../gpu/sun-map.js";
 import { LambentLight, type Disc } from "../light/light.js";
 import { kLargestSun, sunOf, sunPoints, type SunPoint } from "../light/sun.js";
+import { stateOf } from "../materials/uniform-state.js";
 import { kindOf, type TransferChoice } from "./choices.js";
 import type { RelitMesh } from "./relit-mesh.js";
 
@@ -76,6 +77,12 @@ export class SharpSun {
     return this.disc !== null;
   }
 
+  /** Tells how it shines; "" without it. */
+  get state(): string {
+    const { sunDirection, sunIrradiance } = this.uniforms;
+    return this.disc ? stateOf([sunDirection, sunIrradiance]) : "";
+  }
+
   /** @throws RangeError for a disc that is no Sun */
   set(disc: Disc | null, weights: ArrayLike<number>): void {
     if (disc && disc.diameter > kLargestSun * (1 + 1e-6))
@@ -97,17 +104,11 @@ export class SharpSun {
   }
 
   /**
-   * Where this picture's point of the disc stands and, if it can be hidden, the map of what hides it.
+   * Towards this picture's point of the disc.
    *
    * @param sample which of `samples` pictures that are added up
    */
-  look(
-    renderer: WebGLRenderer,
-    root: Object3D,
-    camera: Camera | undefined,
-    [sample, samples]: readonly [number, number],
-    hides: boolean,
-  ): void {
+  aim(root: Object3D, sample: number, samples: number): void {
     if (!this.disc) return;
     const count = Math.max(1, Math.floor(samples));
     if (this.points.length !== count) this.points = sunPoints(this.disc, count);
@@ -116,7 +117,11 @@ export class SharpSun {
     const { sunDirection, sunIrradiance } = this.uniforms;
     sunDirection.value.set(...direction).applyQuaternion(rotation.invert());
     sunIrradiance.value.set(...irradiance);
-    if (!hides) return;
+  }
+
+  /** The map of what hides that point from what a camera sees; without a camera from all of it. */
+  drawMap(renderer: WebGLRenderer, root: Object3D, camera: Camera | undefined): void {
+    if (!this.disc) return;
     let clipFromAsset: Matrix4 | null = null;
     if (camera) {
       camera.updateWorldMatrix(true, false);
@@ -126,7 +131,7 @@ export class SharpSun {
         .multiply(root.matrixWorld)
         .premultiply(camera.projectionMatrix);
     }
-    const { x, y, z } = sunDirection.value;
+    const { x, y, z } = this.uniforms.sunDirection.value;
     this.map.draw(renderer, [x, y, z], clipFromAsset);
   }
 }

@@ -4,7 +4,8 @@
 // Before this text stand: #define LAMBENT_FETCH, LAMBENT_FILTER, LAMBENT_ID_MAP, each 0 or 1, and what
 // these want: incident.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl,
 // rtt_look_up.glsl, tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; the textures of the
-// first two; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0.
+// first two; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0;
+// LAMBENT_CAPTURED 1 with captured.glsl, or 0.
 
 #include <common>
 #include <logdepthbuf_pars_fragment>
@@ -69,6 +70,9 @@ void main() {
   }
 #if LAMBENT_AIR
   if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);
+#endif
+#if LAMBENT_CAPTURED
+  if (capturing) gl_FragColor = keptByCapture(gl_FragColor.rgb, point.distance);
 #endif
 #include <tonemapping_fragment>
 #include <colorspace_fragment>

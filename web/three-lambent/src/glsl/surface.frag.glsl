@@ -6,7 +6,8 @@
 // incident.glsl, incident_texture.glsl, lobe.glsl; shading_normal.glsl, shading_point.glsl;
 // base_color.glsl, with LAMBENT_ALPHA coverage.glsl, with a map base_color_map.glsl; for texels texel_receivers.glsl; LAMBENT_SUN (0: no
 // sharp Sun, else sun_light.glsl with what it wants), LAMBENT_SUN_SHARE; LAMBENT_AIR, with what
-// air_texels.glsl and air_behind.glsl say, or 0; for a mirror environment.glsl, environment_map.glsl.
+// air_texels.glsl and air_behind.glsl say, or 0; for a mirror environment.glsl, environment_map.glsl;
+// LAMBENT_CAPTURED 1 with captured.glsl, and for a mirror local_capture.glsl, or 0.
 
 #include <common>
 #include <logdepthbuf_pars_fragment>
@@ -66,11 +67,19 @@ void main() {
 #if LAMBENT_KIND == 4
     gl_FragColor.rgb = reflectance * base;
 #elif LAMBENT_KIND == 2
-    vec3 shown = environmentRadiance(worldFromAsset * reflected);
-#if LAMBENT_AIR
-    if (eye.w > 0.0) shown = seenBehindAir(point.position, reflected, shown);
+    vec4 met = vec4(0.0);
+#if LAMBENT_CAPTURED
+    met = capturedAlong(captureScale.y * point.position, reflected);
+    met.rgb /= captureScale.x;
 #endif
-    gl_FragColor.rgb = reflectance * base * shown;
+    if (met.a < 1.0) {
+      vec3 shown = environmentRadiance(worldFromAsset * reflected);
+#if LAMBENT_AIR
+      if (eye.w > 0.0) shown = seenBehindAir(point.position, reflected, shown);
+#endif
+      met.rgb += (1.0 - met.a) * shown;
+    }
+    gl_FragColor.rgb = reflectance * base * met.rgb;
 #else
     vec3 diffuse = vec3(0.0);
 #if LAMBENT_KIND == 1
@@ -106,6 +115,9 @@ void main() {
 #endif
 #if LAMBENT_AIR
   if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);
+#endif
+#if LAMBENT_CAPTURED
+  if (capturing) gl_FragColor = keptByCapture(gl_FragColor.rgb, point.distance);
 #endif
 #include <tonemapping_fragment>
 #include <colorspace_fragment>

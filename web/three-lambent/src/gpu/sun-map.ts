@@ -201,7 +201,7 @@ export class SunMap {
       .scale(new Vector3(2 / side, 2 / side, 2));
     this.material.uniforms.clipFromAsset.value.multiplyMatrices(clipFromMap, mapFromAsset);
     for (const material of [this.material, ...this.gaps]) material.uniformsNeedUpdate = true;
-    renderInto(renderer, this.scene, this.camera, target, true);
+    renderInto(renderer, this.scene, this.camera, target, "depth");
     this.done = state;
   }
 

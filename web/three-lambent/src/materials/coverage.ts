@@ -24,6 +24,9 @@ export const kWhole: Coverage = { mode: 0, opacity: 1, cutoff: 0.5, kept: 1 };
 /** Whether a surface may be there in parts alone. */
 export const hasGaps = ({ mode, kept }: Coverage) => mode !== 0 || kept < 1;
 
+/** Whether it is there in a share of the sub-samples. */
+export const hasGrain = ({ mode, kept }: Coverage) => mode === 2 || kept < 1;
+
 type Json = Record<string, unknown>;
 
 const numberOr = (value: unknown, otherwise: number) =>

@@ -10,10 +10,12 @@ import {
   RGBAFormat,
   Vector3,
   Vector4,
+  type IUniform,
   type Texture,
 } from "three";
 import { environment, environmentMap, kMostDiscs } from "../generated/shaders.js";
 import type { DirectionLike, Disc, QuaternionLike, Rgb } from "../light/light.js";
+import { stateOf } from "./uniform-state.js";
 
 export { kMostDiscs };
 
@@ -86,6 +88,11 @@ export class EnvironmentUniforms {
       skylightFromEnvironment: { value: new Matrix3() },
       skylightHorizon: { value: new Vector4(0, 1, 0, 0) },
     };
+  }
+
+  /** Tells all that is shown. */
+  get state(): string {
+    return stateOf(Object.values<IUniform>(this.uniforms));
   }
 
   /** @throws RangeError for more discs than can be shown */

@@ -18,10 +18,12 @@ import {
 import {
   baseColor,
   baseColorMap,
+  captured,
   coverage,
   incident,
   incidentTexture,
   lobe,
+  localCapture,
   patchFrag,
   patchPlace,
   rowPlace,
@@ -62,6 +64,8 @@ export interface SurfaceShape {
   sunShare?: boolean;
   /** What it is seen through. */
   air?: AirMode;
+  /** Mirrors see it; a mirror sees the asset. */
+  captured?: boolean;
   /** It may be there in parts alone. */
   gaps?: boolean;
   map: Texture | null;
@@ -79,6 +83,7 @@ export interface PatchShape {
   filter: boolean;
   idMap: boolean;
   air: AirMode;
+  captured: boolean;
 }
 
 const flag = (value: unknown) => (value ? 1 : 0);
@@ -126,25 +131,44 @@ export class RelitMaterial extends ShaderMaterial {
 
   /** For a mesh's onBeforeRender: the eye, and how wide a pixel is, in the asset's frame. */
   look(renderer: WebGLRenderer, camera: Camera, object: Object3D): void {
-    const { eye, pixelWidth, worldFromAsset } = this.uniforms;
-    inverse.copy(object.matrixWorld).invert();
+    this.lookFrom(renderer, camera, inverse.copy(object.matrixWorld).invert(), this.samples);
+    this.place(object.matrixWorld);
+  }
+
+  /** The same for a camera that stands in the asset's frame, and one picture alone. */
+  lookAround(renderer: WebGLRenderer, camera: Camera, worldFromAsset: Matrix4): void {
+    this.lookFrom(renderer, camera, inverse.identity(), 1);
+    this.place(worldFromAsset);
+  }
+
+  private lookFrom(
+    renderer: WebGLRenderer,
+    camera: Camera,
+    assetFromCameras: Matrix4,
+    samples: number,
+  ): void {
+    const { eye, pixelWidth } = this.uniforms;
     const height = renderer.getCurrentViewport(vector).w;
     // Half the picture's height: at distance 1, or of an orthographic camera at any.
     const half = 1 / Math.abs(camera.projectionMatrix.elements[5]);
-    const width = (2 * half) / (height * Math.sqrt(this.samples));
+    const width = (2 * half) / (height * Math.sqrt(samples));
     const orthographic = camera.projectionMatrix.elements[15] === 1;
     const c = camera.matrixWorld.elements;
     if (orthographic) {
-      const scale = inverse.getMaxScaleOnAxis();
-      eye.value.set(c[8], c[9], c[10], 0).applyMatrix4(inverse).normalize();
+      const scale = assetFromCameras.getMaxScaleOnAxis();
+      eye.value.set(c[8], c[9], c[10], 0).applyMatrix4(assetFromCameras).normalize();
       pixelWidth.value.set(0, width * scale);
     } else {
-      eye.value.set(c[12], c[13], c[14], 1).applyMatrix4(inverse);
+      eye.value.set(c[12], c[13], c[14], 1).applyMatrix4(assetFromCameras);
       pixelWidth.value.set(width, 0);
     }
-    if (this.uniforms.veil) this.uniforms.veil.value[1] = this.sample;
-    worldFromAsset.value.setFromMatrix4(object.matrixWorld);
-    const scale = object.matrixWorld.getMaxScaleOnAxis();
+  }
+
+  private place(worldFrom: Matrix4): void {
+    const { veil, worldFromAsset } = this.uniforms;
+    if (veil) veil.value[1] = this.sample;
+    worldFromAsset.value.setFromMatrix4(worldFrom);
+    const scale = worldFrom.getMaxScaleOnAxis();
     if (scale > 0) worldFromAsset.value.multiplyScalar(1 / scale);
     this.uniformsNeedUpdate = true;
   }
@@ -160,6 +184,7 @@ export function makeSurfaceMaterial(
   const map = shape.uv ? shape.map : null;
   const glossy = coefficients > 0 && (vertices || shape.kind === "texels");
   const fetch = shape.fetch && glossy && vertices;
+  const mirror = shape.kind === "mirror";
   const sun = shape.sun === "hidden" ? 2 : flag(shape.sun);
   const common = defines({
     KIND: kSurfaceKind[shape.kind],
@@ -175,6 +200,7 @@ export function makeSurfaceMaterial(
     SUN: sun,
     SUN_SHARE: flag(shape.sunShare),
     ALPHA: flag(shape.gaps),
+    CAPTURED: flag(shape.captured),
   });
   const light = glossy ? incidentDefines(coefficients, vertices && !fetch) : "";
   const parts = [
@@ -191,7 +217,9 @@ export function makeSurfaceMaterial(
     sun === 2 ? sunShadow : "",
     sun ? sunLight : "",
     airSource(shape.air ?? "none"),
-    shape.kind === "mirror" ? `uniform mat3 worldFromAsset;\n${environmentGlsl}` : "",
+    shape.captured ? captured : "",
+    mirror ? `uniform mat3 worldFromAsset;\n${environmentGlsl}` : "",
+    mirror && shape.captured ? localCapture : "",
     surfaceFrag,
   ];
   const vertexParts = [common, light, glossy ? incidentTexture : "", surfaceVert];
@@ -220,6 +248,7 @@ export function makePatchMaterial(
     FETCH: flag(shape.fetch),
     UV: 1,
     COLOR: 0,
+    CAPTURED: flag(shape.captured),
     NUMBERS: shape.numbers,
     FILTER: flag(shape.filter),
     ID_MAP: flag(shape.idMap),
@@ -243,6 +272,7 @@ export function makePatchMaterial(
     shadingPoint,
     patchPlace,
     airSource(shape.air),
+    shape.captured ? captured : "",
     patchFrag,
   ];
   const vertexParts = [common, light, incidentTexture, surfaceVert];

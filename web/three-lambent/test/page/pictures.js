@@ -52,7 +52,13 @@ async function draw(state) {
   const scene = new THREE.Scene();
   scene.add(gltf.scene);
   const camera = new THREE.PerspectiveCamera();
-  lambent.frameAutomatically(gltf.scene, camera, 1);
+  if (state.camera) {
+    const { position, target, verticalFov } = state.camera;
+    camera.fov = verticalFov;
+    camera.position.set(...position);
+    camera.lookAt(...target);
+    camera.updateProjectionMatrix();
+  } else lambent.frameAutomatically(gltf.scene, camera, 1);
 
   const turned = new THREE.Quaternion(...(state.objectRotation ?? [0, 0, 0, 1]));
   const moved = new THREE.Vector3(...(state.objectTranslation ?? [0, 0, 0]));

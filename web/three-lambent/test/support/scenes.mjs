@@ -70,6 +70,12 @@ const checker = png(16, 8, (x, y) =>
   ((x >> 1) + (y >> 1)) & 1 ? [240, 200, 90] : [30, 90 + 8 * x, 160],
 );
 
+const holes = png(32, 32, (x, y) => {
+  const hole = (x % 16) - 8;
+  const away = Math.hypot(hole + 0.5, (y % 16) - 7.5);
+  return [255, 200 + x, 100 + 4 * y, Math.min(255, 40 * away)];
+});
+
 /** A coloured ball on a floor whose texture repeats and mirrors. */
 export const mattScene = sceneGlb(
   [
@@ -123,6 +129,48 @@ export const mirrorScene = sceneGlb(
   [shiny([0.95, 0.85, 0.75], 1, 0), matt([0.7, 0.7, 0.7])],
 );
 
+/** Stood up, its front towards +z, at a depth. */
+function standing(mesh, z) {
+  for (const list of [mesh.positions, mesh.normals])
+    for (let i = 0; i < list.length; i += 3)
+      [list[i + 1], list[i + 2]] = [-list[i + 2], list[i + 1]];
+  for (let i = 0; i < mesh.positions.length; i += 3) {
+    mesh.positions[i + 1] += 0.8;
+    mesh.positions[i + 2] += z;
+  }
+  return mesh;
+}
+
+/**
+ * Two mirrors, a ball and a wall, that see each other and what stands between them: matt, glossy, with
+ * holes, on a floor with a texture.
+ */
+export const mirrorsScene = sceneGlb(
+  [
+    ball({
+      name: "ball",
+      center: [-0.6, 0.5, 0],
+      radius: 0.5,
+      material: 0,
+      rings: 40,
+      sectors: 60,
+    }),
+    standing(floor({ name: "wall", half: 0.8, material: 0, cells: 2 }), -1.2),
+    ball({ name: "red", center: [0.5, 0.35, 0.3], radius: 0.35, material: 1 }),
+    ball({ name: "glossy", center: [0.2, 0.25, -0.6], radius: 0.25, material: 2 }),
+    floor({ name: "leaf", half: 0.5, y: 1.2, material: 3, cells: 4 }),
+    floor({ half: 1.5, material: 4, repeat: 3 }),
+  ],
+  [
+    shiny([0.95, 0.85, 0.75], 1, 0),
+    matt([0.8, 0.15, 0.1]),
+    shiny([0.2, 0.7, 0.3], 0.5, 0.6),
+    { ...matt([0.4, 0.8, 0.3], 0), doubleSided: true, alphaMode: "MASK", alphaCutoff: 0.4 },
+    matt([0.8, 0.8, 0.8], 1),
+  ],
+  [holes, checker],
+);
+
 /** One square for receivers on texels, matt under a texture and glossy, with a ball above it. */
 export const texelScene = sceneGlb(
   [
@@ -170,13 +218,7 @@ export const leafScene = sceneGlb(
     { ...matt([0.4, 0.8, 0.3], 0), doubleSided: true, alphaMode: "MASK", alphaCutoff: 0.4 },
     matt([0.7, 0.7, 0.7]),
   ],
-  [
-    png(32, 32, (x, y) => {
-      const hole = (x % 16) - 8;
-      const away = Math.hypot(hole + 0.5, (y % 16) - 7.5);
-      return [255, 200 + x, 100 + 4 * y, Math.min(255, 40 * away)];
-    }),
-  ],
+  [holes],
 );
 
 /** What a patch is spread over. */

@@ -1,0 +1,139 @@
+// What the mirrors of an asset show of it: captures of all other surfaces as they are lit, one for each
+// mirror. They lie in the asset's frame: a camera does not change them, nor a turn but by the light.
+
+import { Matrix4, Mesh, Scene, Vector2, Vector3, type Box3, type WebGLRenderer } from "three";
+import { LocalCapture } from "../gpu/local-capture.js";
+import type { RelitMaterial } from "../materials/relit-material.js";
+import type { RelitMesh } from "./relit-mesh.js";
+
+/** Mirrors with a capture of their own, the largest ones; others look into the nearest. */
+const kMostCaptures = 8;
+/** What is nearer to a capture's place is not in it, in diagonals of the mirror. */
+const kNear = 0.01;
+
+const boxOf = ({ plain }: RelitMesh): Box3 => {
+  if (!plain.boundingBox) plain.computeBoundingBox();
+  return plain.boundingBox!;
+};
+const diagonalOf = (box: Box3) => box.getSize(new Vector3()).length();
+const centreOf = (mesh: RelitMesh) => boxOf(mesh).getCenter(new Vector3());
+
+function captureAt(mesh: RelitMesh, { min, max }: Box3): LocalCapture {
+  const from = centreOf(mesh);
+  const farthest = max.clone().sub(from).max(from.clone().sub(min)).length();
+  const far = Math.max(1.01 * farthest, 1e-30);
+  const near = Math.min(Math.max(kNear * diagonalOf(boxOf(mesh)), 1e-6 * far), 0.1 * far);
+  return new LocalCapture(from, near, far);
+}
+
+/** One capture, and who looks into it: first the mirror that it is drawn for, which is not in it. */
+interface Captured {
+  capture: LocalCapture;
+  mirrors: RelitMesh[];
+}
+
+/** Of src/glsl/captured.glsl. */
+export const capturedUniforms = () => ({
+  capturing: { value: false },
+  captureScale: { value: new Vector2(1, 1) },
+});
+
+export class Mirrors {
+  /** How many there are. */
+  readonly count: number;
+  private readonly captured: Captured[] = [];
+  private readonly scene = new Scene();
+  private readonly copies: Mesh[] = [];
+  private worldFromAsset = new Matrix4();
+  private done = "";
+
+  /**
+   * @param bounds of all of the asset
+   * @param uniforms of all of its surfaces
+   */
+  constructor(
+    private readonly meshes: readonly RelitMesh[],
+    bounds: Box3,
+    private readonly uniforms: ReturnType<typeof capturedUniforms>,
+  ) {
+    const size = (mesh: RelitMesh) => diagonalOf(boxOf(mesh));
+    const mirrors = meshes.filter(({ isMirror }) => isMirror).sort((a, b) => size(b) - size(a));
+    this.count = mirrors.length;
+    if (mirrors.length === 0) return;
+    this.uniforms.captureScale.value.y = 1 / Math.max(diagonalOf(bounds), 1e-30);
+    for (const mesh of mirrors)
+      if (this.captured.length < kMostCaptures)
+        this.captured.push({ capture: captureAt(mesh, bounds), mirrors: [mesh] });
+      else this.nearest(centreOf(mesh)).mirrors.push(mesh);
+    this.scene.matrixWorldAutoUpdate = false;
+    for (const _ of meshes) {
+      const copy = new Mesh();
+      copy.onBeforeRender = (renderer, _scene, camera, _geometry, material) =>
+        (material as RelitMaterial).lookAround(renderer, camera, this.worldFromAsset);
+      this.copies.push(copy);
+      this.scene.add(copy);
+    }
+  }
+
+  private nearest(to: Vector3): Captured {
+    const away = ({ capture }: Captured) => capture.from.distanceTo(to);
+    return this.captured.reduce((a, b) => (away(b) < away(a) ? b : a));
+  }
+
+  /** Whether captures are not of this state, which tells all that they show. */
+  due(state: string): boolean {
+    return this.count > 0 && state !== this.done;
+  }
+
+  /**
+   * @param size texels of a side of a capture
+   * @param radiance about what there is: halves hold 10⁻⁵ to 10⁴ of it
+   */
+  draw(
+    renderer: WebGLRenderer,
+    state: string,
+    worldFromAsset: Matrix4,
+    size: number,
+    radiance: number,
+  ): void {
+    const { capturing, captureScale } = this.uniforms;
+    captureScale.value.x = radiance > 0 ? 2 ** -Math.round(Math.log2(radiance)) : 1;
+    this.worldFromAsset = worldFromAsset;
+    for (const { mirrors } of this.captured) for (const mirror of mirrors) mirror.lookInto(null);
+    capturing.value = true;
+    try {
+      // Twice, so that each shows mirrors that show the asset; the last one does so at once.
+      for (const each of [...this.captured, ...this.captured.slice(0, -1)])
+        this.drawOne(renderer, each, size);
+    } finally {
+      capturing.value = false;
+    }
+    this.done = state;
+  }
+
+  private drawOne(renderer: WebGLRenderer, { capture, mirrors }: Captured, size: number): void {
+    this.meshes.forEach((each, i) => {
+      const { geometry, material, visible } = each.mesh;
+      Object.assign(this.copies[i], {
+        geometry,
+        material,
+        visible: visible && each !== mirrors[0],
+      });
+    });
+    // What is drawn into cannot be looked into.
+    for (const mirror of mirrors) mirror.lookInto(null);
+    capture.draw(renderer, this.scene, size);
+    const { y: scale } = this.uniforms.captureScale.value;
+    const from = capture.from.clone().multiplyScalar(scale);
+    for (const mirror of mirrors) mirror.lookInto({ texture: capture.texture!, from });
+  }
+
+  /** They are to be made again: the GPU has lost them, or they are not wanted. */
+  forget(): void {
+    for (const { capture, mirrors } of this.captured) {
+      for (const mirror of mirrors) mirror.lookInto(null);
+      capture.dispose();
+    }
+    this.done = "";
+  }
+}
