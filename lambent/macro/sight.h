@@ -31,9 +31,20 @@ struct Sight {
   bool buried = false;  ///< most of what lies above is the back of surfaces
 };
 
-/// The weights of three corners without those that are buried, scaled to the same sum: what they
-/// would have is for nobody to see. As they are where all three are buried.
-Vec3 exposedWeights(const std::array<const Sight*, 3>& corners, const Vec3& weights);
+/// The places between which a place is interpolated: up to four, with weights that sum to 1.
+struct Corners {
+  std::array<const Sight*, 4> seen{};
+  std::array<float, 4> weights{};
+  std::size_t count = 0;
+
+  static Corners ofTriangle(const std::array<const Sight*, 3>& seen, const Vec3& weights) {
+    return {{seen[0], seen[1], seen[2]}, {weights[0], weights[1], weights[2]}, 3};
+  }
+};
+
+/// Without those that are buried, the others' weights scaled to the same sum: what they would have
+/// is for nobody to see. As they are where all are buried.
+Corners exposed(const Corners& corners);
 
 /// Where rays start and which way is up.
 struct Spot {
@@ -53,13 +64,12 @@ class SightTest {
   };
   Sight at(const Spot& spot, Scratch& scratch) const;
 
-  /// An estimate of e² (above) between what is hidden from `here` and what is interpolated of three
-  /// corners by `weights`, over directions above the plane of the triangle: those below meet the triangle
-  /// itself. Without bias, were it below 0: it is a product of what two independent sets of
+  /// An estimate of e² (above) between what is hidden from `here` and what is interpolated of its
+  /// corners, over directions above the plane of its triangle: those below meet the triangle itself. Without bias, were it below 0: it is a product of what two independent sets of
   /// directions say, which have the difference in common and not the noise. Where all see the
   /// same it is exactly 0.
-  double squaredError(const Sight& here, const std::array<const Sight*, 3>& corners,
-                      const Vec3& weights, const Vec3& planeNormal, Scratch& scratch) const;
+  double squaredError(const Sight& here, const Corners& corners, const Vec3& planeNormal,
+                      Scratch& scratch) const;
 
  private:
   const trace::RayScene& rays_;

@@ -93,6 +93,12 @@ Status placeTexels(const scene::Scene& scene, const TexelGrid& asked, float offs
       grid.receiverOfTexel[texel] = own;
     }
   }
+  for (const TexelBeyond& beyond : asked.beyond) {
+    std::uint32_t& place = grid.receiverOfTexel[beyond.texel];
+    if (place != kNobody) continue;
+    place = static_cast<std::uint32_t>(receivers.size());
+    add(receivers, beyond.point, beyond.point.position + offset * beyond.point.normal);
+  }
   dilate(grid);
   return Status::ok();
 }
@@ -213,6 +219,35 @@ std::vector<std::uint32_t> spatialOrder(const PlacedReceivers& receivers) {
   return order;
 }
 
+ReceiversAround receiversAround(const scene::Scene& scene, const PlacedReceivers& receivers,
+                                std::uint32_t mesh, std::uint32_t triangle, float u, float v) {
+  const PlacedReceivers::PerMesh& place = receivers.meshes[mesh];
+  const scene::Triangle& corners = scene.meshes[mesh].triangles[triangle];
+  const float w = 1.0f - u - v;
+  if (place.layout == Layout::Vertices)
+    return {{place.first + corners[0], place.first + corners[1], place.first + corners[2]},
+            {w, u, v},
+            3};
+  const std::vector<Vec2>& uvs = scene::texelUvsOf(scene.meshes[mesh]);
+  const Vec2 uv = w * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]];
+  const auto within = [](float coordinate, int count) {
+    return std::clamp(coordinate * static_cast<float>(count) - 0.5f, 0.0f,
+                      static_cast<float>(count - 1));
+  };
+  const float x = within(uv.x(), place.width), y = within(uv.y(), place.height);
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const float a = x - static_cast<float>(left), b = y - static_cast<float>(top);
+  ReceiversAround around;
+  around.count = 4;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int column = std::min(left + static_cast<int>(k % 2), place.width - 1);
+    const int row = std::min(top + static_cast<int>(k / 2), place.height - 1);
+    around.receiver[k] = place.receiverOfTexel[std::size_t(row) * place.width + column];
+    around.weight[k] = (k % 2 ? a : 1.0f - a) * (k / 2 ? b : 1.0f - b);
+  }
+  return around;
+}
+
 std::uint32_t drawReceiver(const scene::Scene& scene, const PlacedReceivers& receivers,
                            std::uint32_t mesh, std::uint32_t triangle, float u, float v, float u1,
                            float u2) {
@@ -222,7 +257,7 @@ std::uint32_t drawReceiver(const scene::Scene& scene, const PlacedReceivers& rec
     const float w = 1.0f - u - v;
     return place.first + corners[u1 < w ? 0 : (u1 < w + u ? 1 : 2)];
   }
-  const std::vector<Vec2>& uvs = scene.meshes[mesh].uvs;
+  const std::vector<Vec2>& uvs = scene::texelUvsOf(scene.meshes[mesh]);
   const Vec2 uv = (1.0f - u - v) * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]];
   const auto cell = [](float coordinate, int count, float random) {
     const float at = coordinate * static_cast<float>(count) - 0.5f;

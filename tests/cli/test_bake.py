@@ -60,6 +60,25 @@ class Bake(ToolTest):
         self.run_tool("shade", "plane.glb", "--light", "uniform", "-o", "plane.csv")
         self.assertEqual(len(read_csv(self.path("plane.csv"))), 24 * 16)
 
+    def test_texels_on_a_layout_that_is_made_for_them(self):
+        self.write("ball.obj", ball_obj(24, 12))
+        options = ("--texels", "auto", "--texel-budget", 4096, "--directions", 64, "--bounces", 0)
+        summary = self.run_json("bake", "ball.obj", "-o", "ball.glb", *options)
+        (mesh,) = summary["transfer"]["meshes"]
+        (layout,) = summary["texel_layout"]["meshes"]
+        self.assertEqual((mesh["layout"], mesh["width"], mesh["height"]),
+                         ("texels", layout["size"], layout["size"]))
+        self.assertLessEqual(summary["texel_layout"]["texels"], 4096)
+        self.assertGreater(layout["charts"], 1)
+        self.assertGreater(mesh["receivers"], 1000)
+        # It is there for every way of looking, and for another bake.
+        self.run_tool("shade", "ball.glb", "--light", "uniform", "-o", "ball.csv")
+        self.run_tool("render", "ball.glb", "--light", "uniform", "-o", "cpu.exr",
+                      "--backend", "cpu", "--size", "32x32")
+        self.run_tool("bake", "ball.glb", "-o", "again.glb", *options)
+        one = self.bake("ball.obj", "one.glb", *options, "--threads", 1).read_bytes()
+        self.assertTrue(one == self.path("ball.glb").read_bytes())
+
     def test_glossy_has_matrices_and_its_lobe_is_free(self):
         summary = self.run_json(
             "bake", str(self.write("ball.obj", ball_obj())), "-o", "ball.glb", "--directions", 256,

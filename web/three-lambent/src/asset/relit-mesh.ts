@@ -273,6 +273,7 @@ export class RelitMesh {
       sunShare: apart !== null && apart,
       air: choices.air,
       ...{ albedoOutside, lobeBands, fetch, map, colored, uv, gaps },
+      texelUv: grid?.texCoord === 1,
     };
     this.show(makeSurfaceMaterial(shape, uniforms));
   }

@@ -67,6 +67,8 @@ export interface SurfaceShape {
   map: Texture | null;
   colored: boolean;
   uv: boolean;
+  /** Texels lie by a second set of texture coordinates. */
+  texelUv?: boolean;
 }
 
 /** What of meso-structure decides about its shaders. */
@@ -170,6 +172,7 @@ export function makeSurfaceMaterial(
     FETCH: flag(fetch),
     MAP: flag(map),
     UV: flag(shape.uv),
+    TEXEL_UV: flag(shape.texelUv),
     COLOR: flag(shape.colored),
     ALBEDO_OUTSIDE: flag(shape.albedoOutside),
     SUN: sun,
@@ -211,6 +214,7 @@ export function makePatchMaterial(
 ): RelitMaterial {
   const coefficients = shape.bands ** 2;
   const common = defines({
+    KIND: kSurfaceKind.vertices,
     VERTICES: 1,
     DIFFUSE: 0,
     GLOSSY: 0,
@@ -219,6 +223,7 @@ export function makePatchMaterial(
     ALPHA: 0,
     FETCH: flag(shape.fetch),
     UV: 1,
+    TEXEL_UV: 0,
     COLOR: 0,
     NUMBERS: shape.numbers,
     FILTER: flag(shape.filter),
