@@ -178,7 +178,7 @@ std::vector<Rgb> colorsAtLayout(const Scene& scene, std::uint32_t meshIndex,
   for (std::size_t t = 0; t < map.size(); ++t) {
     if (nearest[t] == scene::kNobody) continue;
     const Vec2& at = map.barycentric[nearest[t]];
-    colors[t] = baseColorAt(scene, meshIndex, map.triangle[nearest[t]], at.x(), at.y());
+    colors[t] = shade::baseColorAt(scene, meshIndex, map.triangle[nearest[t]], at.x(), at.y());
   }
   return colors;
 }
