@@ -6,7 +6,7 @@
 //         biscale-figure5 biscale-figure6 biscale-vase biscale-filter biscale-encodings
 //         biscale-rtt-methods capture-projection capture-figure5 sky-meridian sky-accuracy
 //         sky-optical-lengths sky-chromaticity sky-compact sky-preetham sky-aerial sky-24-hours
-//         sun-shadow refinement
+//         sun-shadow refinement surfaces
 //   --suns: the Sun's zenith angles, degrees, of sky-accuracy; an exact sky takes minutes.
 #include <fmt/format.h>
 
@@ -25,6 +25,7 @@
 #include "figures/refinement.h"
 #include "figures/sky.h"
 #include "figures/sun_shadow.h"
+#include "figures/surfaces.h"
 
 namespace {
 
@@ -72,7 +73,8 @@ int main(int argc, char** argv) {
       {"sky-aerial", skyAerial},
       {"sky-24-hours", sky24Hours},
       {"sun-shadow", sunShadow},
-      {"refinement", refinement}};
+      {"refinement", refinement},
+      {"surfaces", surfaces}};
   Studio studio;
   std::vector<std::string> words(argv + 1, argv + argc), wanted;
   std::vector<std::string> places;

@@ -71,6 +71,23 @@ image::Image develop(const image::Image& linear, float exposureEv) {
   return image::over(toned, Rgb::Constant(0.75f));
 }
 
+double errorBeyondNoise(const image::Image& ours, const reference::Picture& truth) {
+  double off = 0, power = 0;
+  for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
+    if (!(truth.mean.alpha[i] > 0)) continue;
+    off += double((ours.pixels[i] - truth.mean.pixels[i]).square().sum()) -
+           double(truth.variance.pixels[i].sum());
+    power += double(truth.mean.pixels[i].square().sum());
+  }
+  return std::sqrt(std::max(off, 0.0) / power);
+}
+
+float exposureOf(const image::Image& picture) {
+  double sum = 0;
+  for (const Rgb& pixel : picture.pixels) sum += double(pixel.mean());
+  return float(std::log2(0.25 * double(picture.pixels.size()) / std::max(sum, 1e-12)));
+}
+
 scene::Camera lookAt(const Vec3& eye, const Vec3& target, float verticalFovDegrees) {
   const Vec3 back = (eye - target).normalized();
   const Vec3 right = Vec3(0, 1, 0).cross(back).normalized();

@@ -63,6 +63,12 @@ image::Image pathTrace(const scene::Scene& scene, const light::Environment& envi
 /// Tone-mapped over a light backdrop, ready for a sheet.
 image::Image develop(const image::Image& linear, float exposureEv);
 
+/// √(Σ (ours − truth)² − Σ variance) / √Σ truth², over what is covered.
+double errorBeyondNoise(const image::Image& ours, const reference::Picture& truth);
+
+/// What brings the mean of a picture to a middle grey.
+float exposureOf(const image::Image& picture);
+
 /// A camera at `eye` that looks at `target`.
 scene::Camera lookAt(const Vec3& eye, const Vec3& target, float verticalFovDegrees);
 

@@ -49,18 +49,6 @@ light::Environment skyWithSun(double elevation) {
       .value;
 }
 
-/// √(Σ (ours − truth)² − Σ variance) / √Σ truth², over what is covered.
-double errorBeyondNoise(const image::Image& ours, const reference::Picture& truth) {
-  double off = 0, power = 0;
-  for (std::size_t i = 0; i < ours.pixels.size(); ++i) {
-    if (!(truth.mean.alpha[i] > 0)) continue;
-    off += double((ours.pixels[i] - truth.mean.pixels[i]).square().sum()) -
-           double(truth.variance.pixels[i].sum());
-    power += double(truth.mean.pixels[i].square().sum());
-  }
-  return std::sqrt(std::max(off, 0.0) / power);
-}
-
 double apart(const image::Image& a, const image::Image& b) {
   double off = 0, power = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -68,12 +56,6 @@ double apart(const image::Image& a, const image::Image& b) {
     power += double(b.pixels[i].square().sum());
   }
   return std::sqrt(off / power);
-}
-
-float exposureOf(const image::Image& picture) {
-  double sum = 0;
-  for (const Rgb& pixel : picture.pixels) sum += double(pixel.mean());
-  return float(std::log2(0.25 * double(picture.pixels.size()) / std::max(sum, 1e-12)));
 }
 
 }  // namespace

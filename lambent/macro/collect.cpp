@@ -1,6 +1,9 @@
 #include "lambent/macro/collect.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "lambent/transport/texel_seams.h"
 
 namespace lambent::macro {
 
@@ -136,16 +139,26 @@ transfer::MeshTransfer<Floats> transferOf(const Simulation& s, std::uint32_t mes
   if (albedo == transfer::Albedo::Included)
     for (std::size_t k = 0; k < sources.size(); ++k) rho[k] = s.receivers.diffuse[sources[k]];
   const bool grey = std::all_of(rho.begin(), rho.end(), isGrey);
+  std::optional<transport::TexelSeams> seams;
+  if (place.layout == Layout::Texels) seams.emplace(mesh, place);
+  const auto closeSeams = [&](std::vector<float>& rows) {
+    if (seams && !sources.empty()) seams->close({rows.data(), rows.size() / sources.size()});
+  };
   /// `told`: the channels that the totals tell apart.
   const auto responseOf = [&](const Totals& from, int told) {
     transfer::SurfaceResponse<Floats> response;
     const int channels = told == 1 && grey ? 1 : 3;
-    if (place.isDiffuse)
-      response.diffuse = {albedo,
-                          {s.inBands, channels, vectorsOf(s, sources, rho, from, told, channels)}};
-    if (place.isGlossy)
+    if (place.isDiffuse) {
+      std::vector<float> vectors = vectorsOf(s, sources, rho, from, told, channels);
+      closeSeams(vectors);
+      response.diffuse = {albedo, {s.inBands, channels, std::move(vectors)}};
+    }
+    if (place.isGlossy) {
+      std::vector<float> matrices = matricesOf(s, sources, from, told);
+      closeSeams(matrices);
       response.glossy = {{material.glossy, material.lobeExponent},
-                         {s.outBands, s.inBands, told, matricesOf(s, sources, from, told)}};
+                         {s.outBands, s.inBands, told, std::move(matrices)}};
+    }
     return response;
   };
   transfer::Surface<Floats> surface{std::move(receivers), {}};

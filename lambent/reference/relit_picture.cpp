@@ -26,7 +26,7 @@ namespace {
 
 using transfer::Numbers;
 constexpr int kMostSeenThrough = 256;  ///< seen through, in a row
-constexpr int kMostMirrors = 8;        ///< in a row; the last one shows the environment alone
+constexpr int kMirrorsInARow = 8;      ///< in a row; the last one shows the environment alone
 
 using Surface = transfer::Surface<Numbers>;
 using BiScale = transfer::BiScale<Numbers>;
@@ -103,7 +103,7 @@ struct LitScene {
   Rgb shownByMirror(const scene::SurfacePoint& point, const Vec3& direction,
                     const Sight& sight) const {
     SeenThrough seen;
-    if (sight.mirrors <= kMostMirrors)
+    if (sight.mirrors <= kMirrorsInARow)
       seen = this->seen({point.position + rays.offset() * point.normal, direction}, sight);
     if (!(seen.through.maxCoeff() > 0.0f)) return seen.radiance;
     const Rgb shown = environment.radiance(direction);

@@ -134,7 +134,7 @@ TEST(RelitPicture, PlaneMirrorShowsTheSceneTurnedOver) {
   asset::Asset alone;
   test::addDiffuse(alone, test::sphere(Vec3(0, 1.5f, 0), 1.0f, 32), {});
   scene::Camera turnedOver = camera;
-  turnedOver.worldFromCamera = Vec4(1, -1, 1, 1).asDiagonal() * camera.worldFromCamera;
+  turnedOver.worldFromCamera = Eigen::Vector4f(1, -1, 1, 1).asDiagonal() * camera.worldFromCamera;
   options.background = true;
   const auto behind = relitPicture(alone, light, sky, turnedOver, options);
   ASSERT_TRUE(behind) << behind.error().message;

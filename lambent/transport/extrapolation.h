@@ -3,12 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
+#include "lambent/transport/row_system.h"
 
 namespace lambent::transport {
 
@@ -25,15 +24,9 @@ struct Mean {
   std::vector<std::uint32_t> of;
 };
 
-/// Numbered rows of floats: row i begins at data + i·stride.
-struct RowsToFill {
-  float* data;
-  std::size_t stride;
-};
-
 /// The rows M_b that minimise Σ_s |Σ_k w_k(s) M_k − M_s|² + λ Σ_b |M_b − P_b|² over places s, with
 /// P_b the mean of the witnesses around b. It is the same for every column of the rows, so it is
-/// factorised once. Where little of a surface is seen, rows beyond are free to be anything: λ keeps
+/// solved at once. Where little of a surface is seen, rows beyond are free to be anything: λ keeps
 /// them near what is seen.
 class Extrapolation {
  public:
@@ -47,21 +40,9 @@ class Extrapolation {
   /// of receiver r, or kNoRow where it has none, as all of its mesh; empty: r itself.
   void fill(RowsToFill rows, std::span<const std::uint32_t> rowOf = {}) const;
 
-  static constexpr std::uint32_t kNoRow = 0xffffffffu;
-
  private:
-  using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
-
-  /// A sum over rows of known receivers that goes to the right side of an unknown's equation.
-  struct Term {
-    std::uint32_t unknown, receiver;
-    double factor;
-  };
-
-  std::vector<std::uint32_t> unknowns_;  ///< receivers of places_ that are wanted, ascending
-  std::vector<Term> terms_;
+  RowSystem system_;  ///< of the wanted receivers of places
   std::vector<Mean> means_;
-  std::shared_ptr<const Solver> solver_;
 };
 
 }  // namespace lambent::transport

@@ -8,6 +8,7 @@
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/texel_map.h"
 #include "lambent/transport/texel_charts.h"
+#include "lambent/transport/texel_taps.h"
 
 namespace lambent::transport {
 
@@ -230,20 +231,12 @@ ReceiversAround receiversAround(const scene::Scene& scene, const PlacedReceivers
             3};
   const std::vector<Vec2>& uvs = scene::texelUvsOf(scene.meshes[mesh]);
   const Vec2 uv = w * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]];
-  const auto within = [](float coordinate, int count) {
-    return std::clamp(coordinate * static_cast<float>(count) - 0.5f, 0.0f,
-                      static_cast<float>(count - 1));
-  };
-  const float x = within(uv.x(), place.width), y = within(uv.y(), place.height);
-  const int left = static_cast<int>(x), top = static_cast<int>(y);
-  const float a = x - static_cast<float>(left), b = y - static_cast<float>(top);
+  const TexelTaps taps = tapsAt(uv, place.width, place.height);
   ReceiversAround around;
   around.count = 4;
   for (std::size_t k = 0; k < 4; ++k) {
-    const int column = std::min(left + static_cast<int>(k % 2), place.width - 1);
-    const int row = std::min(top + static_cast<int>(k / 2), place.height - 1);
-    around.receiver[k] = place.receiverOfTexel[std::size_t(row) * place.width + column];
-    around.weight[k] = (k % 2 ? a : 1.0f - a) * (k / 2 ? b : 1.0f - b);
+    around.receiver[k] = place.receiverOfTexel[taps.texels[k]];
+    around.weight[k] = static_cast<float>(taps.weights[k]);
   }
   return around;
 }

@@ -9,6 +9,7 @@
 
 #include "lambent/math/union_find.h"
 #include "lambent/scene/texel_map.h"
+#include "lambent/transport/texel_taps.h"
 
 namespace lambent::transport {
 
@@ -30,46 +31,11 @@ struct CornerHash {
   }
 };
 
-/// For every vertex the number of its position and texture coordinate.
-std::vector<std::uint32_t> weldCorners(const scene::Mesh& mesh) {
-  std::unordered_map<Corner, std::uint32_t, CornerHash> known;
-  known.reserve(mesh.positions.size());
-  std::vector<std::uint32_t> ids(mesh.positions.size());
-  for (std::size_t v = 0; v < ids.size(); ++v) {
-    const Vec3 p = mesh.positions[v] + Vec3::Zero();  // −0 equals +0
-    const Vec2 uv = scene::texelUvsOf(mesh)[v] + Vec2::Zero();
-    const Corner corner = {std::bit_cast<std::uint32_t>(p.x()), std::bit_cast<std::uint32_t>(p.y()),
-                           std::bit_cast<std::uint32_t>(p.z()),
-                           std::bit_cast<std::uint32_t>(uv.x()),
-                           std::bit_cast<std::uint32_t>(uv.y())};
-    ids[v] = known.try_emplace(corner, std::uint32_t(known.size())).first->second;
-  }
-  return ids;
-}
-
 double areaOfUvs(const scene::Mesh& mesh, const scene::Triangle& t) {
   const Eigen::Vector2d a = scene::texelUvsOf(mesh)[t[0]].cast<double>();
   const Eigen::Vector2d e = scene::texelUvsOf(mesh)[t[1]].cast<double>() - a,
                         f = scene::texelUvsOf(mesh)[t[2]].cast<double>() - a;
   return std::abs(e.x() * f.y() - e.y() * f.x());
-}
-
-/// The texels between whose centres a look-up interpolates, and their weights.
-struct Taps {
-  std::array<std::uint32_t, 4> texels;
-  std::array<double, 4> weights;
-};
-Taps tapsAt(double x, double y, int width, int height) {
-  const double left = std::floor(x), top = std::floor(y), a = x - left, b = y - top;
-  Taps taps;
-  for (int k = 0; k < 4; ++k) {
-    const int i = std::clamp(static_cast<int>(left) + k % 2, 0, width - 1);
-    const int j = std::clamp(static_cast<int>(top) + k / 2, 0, height - 1);
-    taps.texels[k] = static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(width) +
-                     static_cast<std::uint32_t>(i);
-    taps.weights[k] = (k % 2 ? a : 1.0 - a) * (k / 2 ? b : 1.0 - b);
-  }
-  return taps;
 }
 
 /// Of a mesh on texels: the chart whose light each texel holds; kNobody for those that show what lies
@@ -95,8 +61,24 @@ std::vector<std::uint32_t> chartOfTexels(const scene::Mesh& mesh,
 
 }  // namespace
 
+std::vector<std::uint32_t> cornersOf(const scene::Mesh& mesh) {
+  std::unordered_map<Corner, std::uint32_t, CornerHash> known;
+  known.reserve(mesh.positions.size());
+  std::vector<std::uint32_t> ids(mesh.positions.size());
+  for (std::size_t v = 0; v < ids.size(); ++v) {
+    const Vec3 p = mesh.positions[v] + Vec3::Zero();  // −0 equals +0
+    const Vec2 uv = scene::texelUvsOf(mesh)[v] + Vec2::Zero();
+    const Corner corner = {std::bit_cast<std::uint32_t>(p.x()), std::bit_cast<std::uint32_t>(p.y()),
+                           std::bit_cast<std::uint32_t>(p.z()),
+                           std::bit_cast<std::uint32_t>(uv.x()),
+                           std::bit_cast<std::uint32_t>(uv.y())};
+    ids[v] = known.try_emplace(corner, std::uint32_t(known.size())).first->second;
+  }
+  return ids;
+}
+
 std::vector<std::uint32_t> chartsOf(const scene::Mesh& mesh) {
-  const std::vector<std::uint32_t> corners = weldCorners(mesh);
+  const std::vector<std::uint32_t> corners = cornersOf(mesh);
   math::UnionFind joined(mesh.positions.size());
   for (const scene::Triangle& t : mesh.triangles)
     for (int k = 1; k < 3; ++k) joined.join(corners[t[k]], corners[t[0]]);
@@ -134,8 +116,7 @@ std::vector<TinyChart> tinyCharts(const scene::Mesh& mesh, int width, int height
     const Vec2 middle = (scene::texelUvsOf(mesh)[t[0]] + scene::texelUvsOf(mesh)[t[1]] +
                          scene::texelUvsOf(mesh)[t[2]]) /
                         3.0f;
-    const Taps taps =
-        tapsAt(double(middle.x()) * width - 0.5, double(middle.y()) * height - 0.5, width, height);
+    const TexelTaps taps = tapsAt(middle, width, height);
     TinyChart& chart = tiny.emplace_back(TinyChart{largest[c], {}});
     for (const std::uint32_t texel : taps.texels)
       if (std::find(chart.texels.begin(), chart.texels.end(), texel) == chart.texels.end())
@@ -164,9 +145,9 @@ Findings chartFindings(const scene::Scene& scene, const PlacedReceivers& receive
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
       scene::visitTexels(mesh, mesh.triangles[t], kLookupsAcrossTexel * place.width,
                          kLookupsAcrossTexel * place.height, [&](int x, int y, double, double) {
-                           const Taps taps = tapsAt((x + 0.5) / kLookupsAcrossTexel - 0.5,
-                                                    (y + 0.5) / kLookupsAcrossTexel - 0.5,
-                                                    place.width, place.height);
+                           const TexelTaps taps = tapsAt((x + 0.5) / kLookupsAcrossTexel - 0.5,
+                                                         (y + 0.5) / kLookupsAcrossTexel - 0.5,
+                                                         place.width, place.height);
                            double other = 0.0;
                            for (int k = 0; k < 4; ++k) {
                              const std::uint32_t chart = ofTexel[taps.texels[k]];

@@ -10,6 +10,10 @@
 
 namespace lambent::transport {
 
+/// For every vertex the number of its position and texture coordinate: where both are the same, the
+/// surface and its layout hang together. `mesh` has UVs.
+std::vector<std::uint32_t> cornersOf(const scene::Mesh& mesh);
+
 /// Of every triangle the number of its chart, from 0 on: triangles that share a corner hang
 /// together, corners being the same where position and texture coordinate are.
 std::vector<std::uint32_t> chartsOf(const scene::Mesh& mesh);
