@@ -23,7 +23,7 @@ Result<WithFindings<Atlas>> makeAtlas(const scene::Mesh& mesh, const AtlasOption
     bare.texelUvs.clear();
     return makeAtlas(bare, options, progress);
   }
-  const WeldedSurface surface = weldedSurface(mesh);
+  WeldedSurface surface = weldedSurface(mesh);
   const std::string name = mesh.name.empty() ? "the mesh" : "mesh \"" + mesh.name + "\"";
   if (!(surface.area > 0.0))
     return report::badInput(name + " has no triangle of any area, and so no surface to lay out");
@@ -40,7 +40,8 @@ Result<WithFindings<Atlas>> makeAtlas(const scene::Mesh& mesh, const AtlasOption
     if (own.value) return WithFindings<Atlas>{std::move(*own.value), std::move(findings)};
   }
 
-  Result<ChartedSurface> charted = chartedSurface(mesh, options.maximumStretch, progress);
+  Result<ChartedSurface> charted =
+      chartedSurface(mesh, std::move(surface), options.maximumStretch, progress);
   if (!charted) return charted.error();
   Result<Atlas> atlas = packedAtlas(mesh, *charted, {}, {options.size, options.gutter}, progress);
   if (!atlas) return atlas.error();

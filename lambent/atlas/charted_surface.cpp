@@ -124,10 +124,10 @@ class AtlasMesh {
 
 }  // namespace
 
-Result<ChartedSurface> chartedSurface(const scene::Mesh& mesh, float maximumStretch,
-                                      const Progress& progress) {
+Result<ChartedSurface> chartedSurface(const scene::Mesh& mesh, WeldedSurface surface,
+                                      float maximumStretch, const Progress& progress) {
   ChartedSurface charted;
-  charted.surface = weldedSurface(mesh);
+  charted.surface = std::move(surface);
   if (!(charted.surface.area > 0.0))
     return report::badInput((mesh.name.empty() ? "the mesh" : "mesh \"" + mesh.name + "\"") +
                             " has no triangle of any area, and so no surface to lay out");

@@ -44,6 +44,24 @@ struct Nearest {
   int edge = 0;
 };
 
+struct SharedEdge {
+  std::uint32_t triangle;
+  int edge;
+  std::uint32_t across;
+};
+/// Whether the vertices that both sides have at either end of an edge are the same in some respect.
+template <class Same>
+bool agreeAcross(const scene::Mesh& mesh, const WeldedSurface& surface, const SharedEdge& shared,
+                 const Same& same) {
+  const auto& other = surface.triangles[shared.across];
+  for (const std::size_t end : {std::size_t(shared.edge), (std::size_t(shared.edge) + 1) % 3}) {
+    const std::uint32_t welded = surface.triangles[shared.triangle][end];
+    const std::size_t k = other[0] == welded ? 0 : other[1] == welded ? 1 : 2;
+    if (!same(mesh.triangles[shared.triangle][end], mesh.triangles[shared.across][k])) return false;
+  }
+  return true;
+}
+
 class Beyond {
  public:
   Beyond(const scene::Scene& scene, std::uint32_t mesh, const WeldedSurface& surface, int size)
@@ -93,29 +111,13 @@ class Beyond {
     const std::uint32_t n = surface_.neighbours[t][std::size_t(k)];
     return n != kNoTriangle && surface_.hasArea(n) ? n : kNoTriangle;
   }
-  int cornerAt(std::uint32_t t, std::uint32_t welded) const {
-    return weldedOf(t, 0) == welded ? 0 : weldedOf(t, 1) == welded ? 1 : 2;
-  }
 
-  /// Both ends of edge k, as t and as the triangle across it have them.
-  template <class Same>
-  bool agree(std::uint32_t t, int k, std::uint32_t n, const Same& same) const {
-    for (int end : {k, k + 1})
-      if (!same(corner(t, end), corner(n, cornerAt(n, weldedOf(t, end))))) return false;
-    return true;
-  }
   bool isBorder(std::uint32_t t, int k) const {
     const std::uint32_t n = across(t, k);
     const std::vector<Vec2>& uvs = scene::texelUvsOf(mesh_);
     return n == kNoTriangle ||
-           !agree(t, k, n, [&](std::uint32_t a, std::uint32_t b) { return uvs[a] == uvs[b]; });
-  }
-  bool isSmooth(std::uint32_t t, int k, std::uint32_t n) const {
-    return agree(t, k, n, [&](std::uint32_t a, std::uint32_t b) {
-      const bool colored = !mesh_.colors.empty();
-      return mesh_.normals[a].dot(mesh_.normals[b]) > kSmooth &&
-             (!colored || (mesh_.colors[a] - mesh_.colors[b]).abs().maxCoeff() < kSameColor);
-    });
+           !agreeAcross(mesh_, surface_, {t, k, n},
+                        [&](std::uint32_t a, std::uint32_t b) { return uvs[a] == uvs[b]; });
   }
 
   void reach(const scene::TexelMap& map, std::uint32_t t, int k) {
@@ -167,7 +169,7 @@ class Beyond {
     const std::optional<Vec3d> edge = weightsAt(t, at), outside = weightsAt(t, texel);
     if (!edge || !outside) return {t, Vec3d::Constant(1.0 / 3.0)};
     const std::uint32_t n = across(t, k);
-    if (n != kNoTriangle && isSmooth(t, k, n))
+    if (n != kNoTriangle)
       return walk(t, k, pointAt(t, *edge), pointAt(t, *outside) - pointAt(t, *edge));
     const Vec2d along = (b - a).normalized();
     Vec2d inward(-along.y(), along.x());
@@ -188,7 +190,7 @@ class Beyond {
     Place here{t, weightsOf(t, from)};
     for (int step = 0; step < kMostSteps; ++step) {
       const std::uint32_t n = across(t, k);
-      if (n == kNoTriangle || !isSmooth(t, k, n)) break;
+      if (n == kNoTriangle) break;
       const std::uint32_t a = weldedOf(t, k), b = weldedOf(t, k + 1);
       const int entered = edgeBetween(n, a, b);
       const Vec3d along = (positionOf(t, k + 1) - positionOf(t, k)).normalized();
@@ -234,6 +236,21 @@ class Beyond {
 };
 
 }  // namespace
+
+WeldedSurface smoothSurface(const scene::Mesh& mesh) {
+  WeldedSurface surface = atlas::weldedSurface(mesh);
+  const auto goesOn = [&](std::uint32_t a, std::uint32_t b) {
+    return mesh.normals[a].dot(mesh.normals[b]) > kSmooth &&
+           (mesh.colors.empty() || (mesh.colors[a] - mesh.colors[b]).abs().maxCoeff() < kSameColor);
+  };
+  const auto before = surface.neighbours;
+  for (std::uint32_t t = 0; t < before.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const std::uint32_t n = before[t][std::size_t(k)];
+          n != kNoTriangle && !agreeAcross(mesh, surface, {t, k, n}, goesOn))
+        surface.neighbours[t][std::size_t(k)] = kNoTriangle;
+  return surface;
+}
 
 std::vector<transport::TexelBeyond> beyondBorders(const scene::Scene& scene, std::uint32_t mesh,
                                                   const WeldedSurface& surface, int size) {

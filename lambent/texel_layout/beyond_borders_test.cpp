@@ -37,7 +37,7 @@ scene::Scene floorInTwo(int quads) {
 TEST(BeyondBorders, ShowTheSurfaceAcrossACut) {
   for (const int quads : {2, 6, 16}) {
     const scene::Scene scene = floorInTwo(quads);
-    const auto beyond = beyondBorders(scene, 0, atlas::weldedSurface(scene.meshes[0]), 32);
+    const auto beyond = beyondBorders(scene, 0, smoothSurface(scene.meshes[0]), 32);
     int across = 0;
     for (const auto& [texel, point] : beyond) {
       const float x = float(texel % 32) + 0.5f, y = float(texel / 32) + 0.5f;
@@ -64,8 +64,7 @@ TEST(BeyondBorders, ShowTheSurfaceAcrossACut) {
 // Over the edge of a box no surface goes on as it was: each face keeps to itself.
 TEST(BeyondBorders, StopAtCreases) {
   scene::Scene scene = scene::sceneOf(scene::box(Vec3(2, 2, 2), 4));
-  for (const auto& [texel, point] :
-       beyondBorders(scene, 0, atlas::weldedSurface(scene.meshes[0]), 48)) {
+  for (const auto& [texel, point] : beyondBorders(scene, 0, smoothSurface(scene.meshes[0]), 48)) {
     Vec3 size = point.position.cwiseAbs();
     const Vec3 normal = point.normal.cwiseAbs();
     EXPECT_NEAR(size.dot(normal), 1.0f, 1e-6f);                       // on its own face

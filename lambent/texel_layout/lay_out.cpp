@@ -20,12 +20,13 @@ namespace lambent::texel_layout {
 namespace {
 
 constexpr float kMaximumStretch = 1.5f;
-constexpr int kRounds = 2;             ///< in which densities follow the error
-constexpr double kCoarse = 0.125;      ///< share of the budget that the first grids get
-constexpr double kPower = 2.0;         ///< p
-constexpr double kMostFiner = 8.0;     ///< than in the round before
+constexpr int kRounds = 3;         ///< in which densities follow the error
+constexpr double kCoarse = 0.125;  ///< share of the budget that the first grids get
+constexpr double kPower = 2.0;     ///< p
+constexpr double kMostFiner = 8.0, kMostCoarser = 0.5;  ///< than in the round before
 constexpr double kLeastOfFirst = 0.5;  ///< of the first grids' density, whatever the error
-constexpr double kUsed = 0.6;          ///< share of a grid that charts cover, before it is known
+constexpr double kUsed = 0.68;         ///< share of a grid that charts cover, but for their gutters
+constexpr double kLeastOfChart = 36.0;          ///< texels of a grid, with its gutter
 constexpr int kSmallest = 4, kLargest = 16384;  ///< sides of grids
 constexpr int kMostAttempts = 3;                ///< at packings of one round
 constexpr int kMostAgain = 32;                  ///< with smallest sides that grow each time
@@ -42,13 +43,16 @@ struct Laying {
   atlas::Atlas packed;
   int size = 0;
   int smallest = kSmallest;  ///< side that has room for all charts, as far as is known
-  double used = kUsed;
+  double margin = 0.0;       ///< texels a side that gutters take, as far as is known
 
   /// Texels that its charts cover at these densities.
   double texels(const std::vector<double>& at) const {
     double sum = 0.0;
     for (std::size_t c = 0; c < at.size(); ++c) sum += charted.charts[c].area * at[c] * at[c];
     return sum;
+  }
+  double sideFor(double texels) const {
+    return std::max(double(smallest), margin + std::sqrt(texels / kUsed));
   }
 };
 
@@ -88,7 +92,12 @@ class Layout {
     for (const std::uint32_t m : meshes) {
       scene::Mesh bare = scene_.meshes[m];
       bare.texelUvs.clear();
-      auto charted = atlas::chartedSurface(bare, kMaximumStretch, progress_);
+      auto charted = atlas::chartedSurface(bare, smoothSurface(bare), kMaximumStretch, progress_);
+      // Of facets each would be a chart: better a crease in a chart than no room.
+      if (charted && double(charted->charts.size()) * kLeastOfChart * double(meshes.size()) >
+                         double(options_.budget))
+        charted =
+            atlas::chartedSurface(bare, atlas::weldedSurface(bare), kMaximumStretch, progress_);
       if (!charted) return charted.error();
       Laying& laying = layings_.emplace_back();
       laying.mesh = m;
@@ -135,6 +144,8 @@ class Layout {
     for (const Laying& laying : layings_) area += laying.charted.surface.area;
     const double budget = double(options_.budget) * (options_.error ? kCoarse : 1.0);
     const double density = std::sqrt(kUsed * budget / area);
+    for (Laying& laying : layings_)
+      laying.margin = options_.gutter * (1.0 + std::sqrt(double(laying.charted.charts.size())));
     for (Laying& laying : layings_) laying.densities.assign(laying.charted.charts.size(), density);
     leastDensity_ = kLeastOfFirst * density;
     return packAll(budget);
@@ -158,8 +169,7 @@ class Layout {
   }
 
   static double sideOf(const Laying& l, double share) {
-    const double least = double(l.smallest) * l.smallest;
-    return std::sqrt(std::max(least, share * l.texels(l.densities) / l.used));
+    return l.sideFor(share * l.texels(l.densities));
   }
   /// How much of what densities want fits into `budget`, at most all.
   double shareWithin(double budget) const {
@@ -212,7 +222,7 @@ class Layout {
       for (std::size_t i = 0; i < layings_.size(); ++i) {
         Laying& l = layings_[i];
         const double texels = setDensities(l);
-        l.used = std::clamp(texels / (double(l.size) * l.size), 0.05, 0.95);
+        l.margin = l.size - std::sqrt(texels / kUsed);
         least = std::min(least, std::sqrt(texels / (share * l.texels(wanted[i]))));
       }
       if (share < 1.0 || least > 0.97 || ++attempt >= kMostAttempts) return Status::ok();
@@ -303,31 +313,34 @@ class Layout {
   /// Densities by the error at those that there are.
   void follow(const std::vector<std::vector<ChartError>>& errors) {
     struct Chart {
+      std::size_t laying;
       double* density;
-      double weight, least, most;
-      double cost;  ///< texels of the grid at a density of 1
+      double area, weight, least, most;
     };
     std::vector<Chart> charts;
     for (std::size_t i = 0; i < layings_.size(); ++i) {
       Laying& l = layings_[i];
       const double mean = meanOf(errors[i]);
       for (std::size_t c = 0; c < l.densities.size(); ++c) {
-        const double squared = errors[i][c].worst(mean);
-        const double density = l.densities[c], least = std::min(density, leastDensity_);
-        const double most =
-            density * std::min(kMostFiner, std::pow(squared / (*options_.error * *options_.error),
-                                                    1.0 / kPower));
-        charts.push_back({&l.densities[c],
+        const double squared = errors[i][c].worst(mean), density = l.densities[c];
+        const double wanted = std::pow(squared / (*options_.error * *options_.error), 1.0 / kPower);
+        charts.push_back({i, &l.densities[c], l.charted.charts[c].area,
                           std::pow(squared * std::pow(density, kPower), 1.0 / (kPower + 2.0)),
-                          least, std::max(least, most), l.charted.charts[c].area / l.used});
+                          std::min(density, leastDensity_),
+                          density * std::clamp(wanted, kMostCoarser, kMostFiner)});
+        charts.back().most = std::max(charts.back().least, charts.back().most);
       }
     }
     const auto densityAt = [](const Chart& chart, double factor) {
       return std::clamp(factor * chart.weight, chart.least, chart.most);
     };
     const auto texelsAt = [&](double factor) {
+      std::vector<double> covered(layings_.size(), 0.0);
+      for (const Chart& chart : charts)
+        covered[chart.laying] += chart.area * std::pow(densityAt(chart, factor), 2);
       double sum = 0.0;
-      for (const Chart& chart : charts) sum += chart.cost * std::pow(densityAt(chart, factor), 2);
+      for (std::size_t i = 0; i < layings_.size(); ++i)
+        sum += std::pow(layings_[i].sideFor(covered[i]), 2);
       return sum;
     };
     double low = 1e-6, high = 1e12;

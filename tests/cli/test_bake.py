@@ -68,6 +68,7 @@ class Bake(ToolTest):
         (layout,) = summary["texel_layout"]["meshes"]
         self.assertEqual((mesh["layout"], mesh["width"], mesh["height"]),
                          ("texels", layout["size"], layout["size"]))
+        self.assertEqual(mesh["tex_coord"], 1)
         self.assertLessEqual(summary["texel_layout"]["texels"], 4096)
         self.assertGreater(layout["charts"], 1)
         self.assertGreater(mesh["receivers"], 1000)
