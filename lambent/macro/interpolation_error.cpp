@@ -32,6 +32,7 @@ Result<std::vector<PlaceError>> placeErrors(const scene::Scene& scene, const tra
                                             const std::vector<bool>& isLookedAt,
                                             const InterpolationErrorOptions& options,
                                             const Progress& progress) {
+  const Compared compared = options.withNormals ? Compared::Arriving : Compared::Blocked;
   const std::vector<SurfaceSample> samples =
       drawSamples(scene, rays, isLookedAt, options.samples, options.seed).samples;
   std::vector<transport::ReceiversAround> arounds;
@@ -65,7 +66,8 @@ Result<std::vector<PlaceError>> placeErrors(const scene::Scene& scene, const tra
           const auto at = std::lower_bound(corners.begin(), corners.end(), around.receiver[k]);
           between.seen[k] = &(*cornerSights)[std::size_t(at - corners.begin())];
         }
-        place.squared = test.squaredError(here, exposed(between), point.geometricNormal, scratch);
+        place.squared =
+            test.squaredError(here, exposed(between), point.geometricNormal, scratch, compared);
         return place;
       });
 }

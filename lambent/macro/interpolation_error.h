@@ -25,6 +25,9 @@ struct InterpolationErrorOptions {
   std::size_t samples = 2048;
   std::uint64_t seed = 0;
   int threads = 0;  ///< 0: as many as the machine has
+  /// Whether how normals turn between receivers counts as well as shadows: not between vertices,
+  /// which are what says how a surface is curved.
+  bool withNormals = false;
 };
 
 /// The difference between shadows (direct light that is blocked) interpolated over triangles and

@@ -16,8 +16,8 @@ bool isOpen(const Sight& sight, std::size_t bit) {
   return (sight.open[bit / 64] >> (bit % 64) & 1u) != 0;
 }
 
-float cosineWhereBlocked(const Sight& sight, std::size_t bit, const Vec3& direction) {
-  return isOpen(sight, bit) ? 0.0f : std::max(0.0f, sight.normal.dot(direction));
+float cosineWhere(bool open, const Sight& sight, std::size_t bit, const Vec3& direction) {
+  return isOpen(sight, bit) == open ? std::max(0.0f, sight.normal.dot(direction)) : 0.0f;
 }
 
 }  // namespace
@@ -64,16 +64,17 @@ Sight SightTest::at(const Spot& spot, Scratch& scratch) const {
 }
 
 double SightTest::squaredError(const Sight& here, const Corners& corners, const Vec3& planeNormal,
-                               Scratch& scratch) const {
+                               Scratch& scratch, Compared compared) const {
+  const bool open = compared == Compared::Arriving;
   for (std::size_t s = 0; s < 2; ++s) {
     scratch.ids.clear(), scratch.weights.clear();
     for (std::uint32_t d = 0; d < kSet; ++d) {
       const Vec3& direction = sets_[s][d];
       if (planeNormal.dot(direction) <= 0.0f) continue;
       const std::size_t bit = s * kSet + d;
-      float difference = cosineWhereBlocked(here, bit, direction);
+      float difference = cosineWhere(open, here, bit, direction);
       for (std::size_t k = 0; k < corners.count; ++k)
-        difference -= corners.weights[k] * cosineWhereBlocked(*corners.seen[k], bit, direction);
+        difference -= corners.weights[k] * cosineWhere(open, *corners.seen[k], bit, direction);
       if (std::abs(difference) < 1e-5f) continue;  // rounding
       scratch.ids.push_back(d), scratch.weights.push_back(difference);
     }

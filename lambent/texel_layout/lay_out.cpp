@@ -271,10 +271,17 @@ class Layout {
       const scene::Mesh& from = meshOf(l);
       scene::Mesh& to = out.first.meshes[l.mesh];
       to = l.packed.mesh;
-      to.texelUvs = std::move(to.uvs);
-      to.uvs.clear();
-      if (!from.uvs.empty())
+      if (!from.uvs.empty()) {
+        to.texelUvs = std::move(to.uvs);
+        to.uvs.clear();
         for (const std::uint32_t v : l.packed.sourceVertex) to.uvs.push_back(from.uvs[v]);
+      } else if (scene::materialOf(out.first, to).baseColorTexture >= 0) {
+        // Without coordinates the texture was not there: it must not come with those of texels.
+        scene::Material bare = scene::materialOf(out.first, to);
+        bare.baseColorTexture = -1;
+        to.material = int(out.first.materials.size());
+        out.first.materials.push_back(std::move(bare));
+      }
       out.second.push_back(
           {l.mesh, l.size, l.size, beyondBorders(out.first, l.mesh, l.charted.surface, l.size)});
     }
@@ -298,7 +305,7 @@ class Layout {
     }
     macro::InterpolationErrorOptions look;
     look.samples = std::clamp<std::size_t>(8 * charts, 2048, 8192);
-    look.seed = options_.seed, look.threads = options_.threads;
+    look.seed = options_.seed, look.threads = options_.threads, look.withNormals = true;
     const auto places = macro::placeErrors(laid, rays_, *receivers, isLookedAt, look, progress_);
     if (!places) return places.error();
     for (const macro::PlaceError& place : *places) {

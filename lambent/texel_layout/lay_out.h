@@ -19,7 +19,8 @@ namespace lambent::texel_layout {
 
 struct LayoutOptions {
   std::size_t budget = 65536;  ///< texels of all grids together, gutters and all
-  /// How far interpolated light may be off, as macro::InterpolationError counts it: charts get texels
+  /// How far interpolated light may be off, shadows and how normals turn, as macro::placeErrors counts
+  /// it: charts get texels
   /// until its root mean square over the eighth of their places where it is largest is below this.
   /// None: texels are as dense everywhere.
   std::optional<double> error = 0.01;
@@ -38,12 +39,12 @@ struct MeshLayout {
 };
 
 struct LaidOutScene {
-  /// With texel UVs on the meshes that were laid out, whose vertices are cut where charts meet. All
-  /// triangles keep their sequence and place: what was hit by rays is what it was.
+  /// With the layout as texel UVs of the meshes, beside the texture coordinates that they have, or as
+  /// these where they have none; vertices are cut where charts meet. All triangles keep their sequence and place: what was hit by rays is what it was.
   scene::Scene scene;
   std::vector<transport::TexelGrid> grids;
   std::vector<MeshLayout> meshes;
-  /// The error that is left, as macro::InterpolationError::rms, over the meshes that were laid out;
+  /// The error that is left, a root mean square, over the meshes that were laid out;
   /// none if it was not asked for.
   std::optional<double> error;
   std::optional<double> worst;  ///< … of the worst chart, as LayoutOptions::error has it

@@ -37,7 +37,7 @@ void expectSound(const LaidOutScene& laid, const LayoutOptions& options) {
   std::size_t texels = 0;
   for (const transport::TexelGrid& grid : laid.grids) {
     const scene::Mesh& mesh = laid.scene.meshes[grid.mesh];
-    EXPECT_EQ(mesh.texelUvs.size(), mesh.positions.size());
+    EXPECT_EQ(scene::texelUvsOf(mesh).size(), mesh.positions.size());
     const Status sound = scene::checkUvs(mesh, grid.width, grid.height);
     EXPECT_TRUE(sound) << sound.error().message;
     texels += std::size_t(grid.width) * std::size_t(grid.height);
@@ -61,7 +61,7 @@ TEST(LayOut, SurfacesStayWhatTheyAre) {
   for (std::uint32_t m = 0; m < 2; ++m) {
     const scene::Mesh &from = scene.meshes[m], &to = laid.scene.meshes[m];
     ASSERT_EQ(from.triangles.size(), to.triangles.size());
-    EXPECT_EQ(from.uvs.empty(), to.uvs.empty());
+    EXPECT_EQ(from.uvs.empty(), to.texelUvs.empty());
     for (std::size_t t = 0; t < from.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = from.triangles[t][k], b = to.triangles[t][k];
@@ -90,6 +90,30 @@ TEST(LayOut, TexelsGoWhereShadowsFall) {
   LayoutOptions uniform = options;
   uniform.error = std::nullopt;
   EXPECT_LT(laidOut(scene, {0, 2}, uniform).meshes[0].finest, 0.8 * laid.meshes[0].finest);
+}
+
+// Nothing hides light from a ball, and still it takes texels to be round.
+TEST(LayOut, NormalsThatTurnTakeTexels) {
+  LayoutOptions options;
+  const LaidOutScene laid = laidOut(scene::sceneOf(scene::icosphere(1, 4)), {0}, options);
+  expectSound(laid, options);
+  EXPECT_FALSE(laid.spent);
+  EXPECT_LT(*laid.error, 0.01);
+  EXPECT_GT(laid.meshes[0].coarsest, 6.0);
+  EXPECT_LT(laid.meshes[0].finest, 40.0);
+}
+
+// A texture of a mesh without coordinates is not there, before and after.
+TEST(LayOut, BringsNoTextureThatWasNotThere) {
+  scene::Scene scene = boxOnFloor();
+  scene::Texture& red = scene.textures.emplace_back();
+  red.width = red.height = 1, red.rgba = {255, 0, 0, 255};
+  scene.materials[0].baseColorTexture = scene.materials[1].baseColorTexture = 0;
+  const LaidOutScene laid = laidOut(scene, {0, 1}, {.budget = 4096, .error = std::nullopt});
+  for (std::uint32_t m = 0; m < 2; ++m)
+    EXPECT_TRUE((scene::baseColorAt(scene, m, 0, 0.3f, 0.3f) ==
+                 scene::baseColorAt(laid.scene, m, 0, 0.3f, 0.3f))
+                    .all());
 }
 
 TEST(LayOut, EndsWhereTheErrorIsMet) {
@@ -143,7 +167,7 @@ Steps stepsAlongBorders(const LaidOutScene& laid, bool beyond) {
       const auto uvAt = [&](std::uint32_t triangle, std::uint32_t welded) {
         for (std::size_t c = 0; c < 3; ++c)
           if (surface.triangles[triangle][c] == welded)
-            return mesh.texelUvs[mesh.triangles[triangle][c]];
+            return scene::texelUvsOf(mesh)[mesh.triangles[triangle][c]];
         return Vec2(Vec2::Zero());
       };
       if (uvAt(t, a) == uvAt(n, a) && uvAt(t, b) == uvAt(n, b)) continue;
@@ -178,7 +202,7 @@ TEST(LayOut, IsTheSameAtAnyNumberOfThreads) {
   const LaidOutScene many = laidOut(boxOnFloor(), {0, 1}, options);
   EXPECT_EQ(one.error, many.error);
   for (std::size_t m = 0; m < 2; ++m)
-    EXPECT_EQ(one.scene.meshes[m].texelUvs, many.scene.meshes[m].texelUvs);
+    EXPECT_EQ(scene::texelUvsOf(one.scene.meshes[m]), scene::texelUvsOf(many.scene.meshes[m]));
 }
 
 // Loose triangles are charts of their own, for which there must be room with their gutters.
