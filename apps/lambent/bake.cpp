@@ -11,10 +11,10 @@
 #include "apps/lambent/named_files.h"
 #include "apps/lambent/refine_arguments.h"
 #include "apps/lambent/scene_arguments.h"
+#include "apps/lambent/texel_arguments.h"
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
 #include "lambent/asset/asset.h"
-#include "lambent/scene/sheets.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/transfer/encode.h"
 #include "lambent/transfer/names.h"
@@ -24,15 +24,13 @@ namespace lambent::tool {
 
 namespace {
 
-constexpr int kMostTexels = 16384;  // a side
-
 struct BakeRequest {
   SceneArguments scene;
   std::filesystem::path output;
   TransferArguments transfer;
   RefineArguments refine;
   transfer::Encoding encoding = transfer::Encoding::Float16;
-  std::vector<std::string> texels;  ///< MESH=WxH, or WxH for every mesh with UVs
+  TexelArguments texels;
 };
 
 constexpr std::string_view kBakeExamples = R"(Examples:
@@ -50,61 +48,9 @@ constexpr std::string_view kBakeExamples = R"(Examples:
       On a floor that takes its shadow.
   lambent bake ring.gltf -o ring.glb --texels ground=256x256
       The mesh "ground" is baked on a grid over its UVs: caustics finer than its vertices.
+  lambent bake house.glb -o house.glb --texels auto
+      All meshes are laid out anew, whatever UVs they have, with texels where shadows fall.
 )";
-
-/// "ground=256x256" names a mesh by name or number; "256x256" means every mesh with UVs.
-Result<std::vector<transport::TexelGrid>> resolveTexels(const std::vector<std::string>& texts,
-                                                        const scene::Scene& scene) {
-  std::vector<transport::TexelGrid> grids;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.rfind('=');
-    const Result<Size> size =
-        parseSize(std::string_view(text).substr(equals == text.npos ? 0 : equals + 1), kMostTexels);
-    if (!size) return size.error();
-    const std::string wanted = equals == text.npos ? std::string() : text.substr(0, equals);
-    std::size_t found = 0;
-    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
-      const scene::Mesh& mesh = scene.meshes[m];
-      const bool mirror = scene.materials[std::size_t(mesh.material)].isMirror();
-      const bool chosen = equals == text.npos ? !mesh.uvs.empty() && !mirror
-                                              : mesh.name == wanted || std::to_string(m) == wanted;
-      if (!chosen) continue;
-      grids.push_back({m, size->width, size->height});
-      ++found;
-    }
-    if (found > 0) continue;
-    std::string names;
-    for (const scene::Mesh& mesh : scene.meshes)
-      names += (names.empty() ? "" : ", ") + (mesh.name.empty() ? "(no name)" : mesh.name);
-    return badUsage(
-        equals == text.npos
-            ? "--texels: no mesh of this scene has UVs: give it some, or bake vertices"
-            : fmt::format("--texels {}: there is no such mesh; there are {}", text, names));
-  }
-  return grids;
-}
-
-/// The backs of meshes that have some lie beside their fronts: grids twice as wide.
-Status layOutSides(std::vector<transport::TexelGrid>& grids, scene::Scene& scene) {
-  for (transport::TexelGrid& grid : grids) {
-    scene::Mesh& mesh = scene.meshes[grid.mesh];
-    if (!scene::hasBacks(mesh)) continue;
-    const auto refused = [&](const std::string& why) {
-      return badUsage(
-          fmt::format("--texels: mesh {} '{}' has two sides, whose texels lie beside "
-                      "each other, and {}: bake it at its vertices, or its front alone "
-                      "(--sides one)",
-                      grid.mesh, mesh.name, why));
-    };
-    if (scene.materials[std::size_t(mesh.material)].baseColorTexture >= 0)
-      return refused("a texture, which has the same place on both");
-    if (2 * grid.width > kMostTexels)
-      return refused(fmt::format("{} texels each way are too many for both", grid.width));
-    scene::layOutBacks(mesh);
-    grid.width *= 2;
-  }
-  return Status::ok();
-}
 
 Status runBake(BakeRequest arguments, Console& console) {
   NamedFiles files;
@@ -112,14 +58,13 @@ Status runBake(BakeRequest arguments, Console& console) {
   files.reads("SCENE", arguments.scene.path);
   if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
-  arguments.scene.layout = !arguments.texels.empty();
+  arguments.scene.layout = arguments.texels.wantsUvs();
   auto scene = arguments.scene.load(console, files);
   if (!scene) return scene.error();
 
   const macro::BakeOptions options = arguments.transfer.chosen(console);
-  auto grids = resolveTexels(arguments.texels, *scene);
-  if (!grids) return grids.error();
-  if (Status laid = layOutSides(*grids, *scene); !laid) return laid;
+  auto chosen = arguments.texels.resolve(*scene, console);
+  if (!chosen) return chosen.error();
 
   // Without bounces there is no room for a slipped ray's light to gather in.
   const trace::Edges edges = options.kind == transfer::Kind::Interreflected
@@ -127,7 +72,10 @@ Status runBake(BakeRequest arguments, Console& console) {
                                  : trace::Edges::Fast;
   auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(*scene, edges); });
   if (!rays) return rays.error();
-  const transport::Placement placement{std::move(*grids), {}};
+  const auto laid =
+      layOutTexels(arguments.texels, arguments.refine, *chosen, *scene, *rays, edges, console);
+  if (!laid) return laid.error();
+  const transport::Placement placement{std::move(chosen->grids), {}};
   auto receivers = transport::placeReceivers(*scene, placement, rays->offset());
   if (!receivers && receivers.error().kind == ErrorKind::BadInput)
     return badInput(arguments.scene.path.string() + ": " + receivers.error().message);
@@ -178,10 +126,12 @@ Status runBake(BakeRequest arguments, Console& console) {
        {"rays_per_second", rate},
        {"seconds", seconds},
        {"between_receivers", between},
+       {"texel_layout", asJson(*laid, asset.scene)},
        {"transfer", transfer.json}},
-      fmt::format("{}: {}\n{}{} receivers, {} rays at {}, {} in all\n{}", arguments.output.string(),
-                  formatBytes(double(bytes)), transfer.text, formatCount(stored),
-                  formatCount(rayCount), formatRate(rate, "rays"), formatSeconds(seconds), times));
+      fmt::format("{}: {}\n{}{}{} receivers, {} rays at {}, {} in all\n{}",
+                  arguments.output.string(), formatBytes(double(bytes)), transfer.text,
+                  inWords(*laid), formatCount(stored), formatCount(rayCount),
+                  formatRate(rate, "rays"), formatSeconds(seconds), times));
 }
 
 }  // namespace
@@ -211,19 +161,7 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
       ->capture_default_str()
       ->group("Transfer");
   arguments->refine.addTo(*app);
-  app->add_option("--texels", arguments->texels,
-                  "Bake a mesh on a grid over its UVs instead of at its vertices; without MESH: "
-                  "every mesh with UVs. May be given several times. Of a glTF mesh without a "
-                  "texture the second set of UVs is taken, if it has one: that of light maps")
-      ->option_text("[MESH=]WxH")
-      ->check([](const std::string& text) -> std::string {
-        const std::size_t equals = text.rfind('=');
-        const Result<Size> size =
-            parseSize(std::string_view(text).substr(equals == std::string::npos ? 0 : equals + 1),
-                      kMostTexels);
-        return size ? "" : size.error().message;
-      })
-      ->group("Transfer");
+  arguments->texels.addTo(*app);
   addChoice(*app, "--encoding", arguments->encoding,
             {{"float16", transfer::Encoding::Float16}, {"float32", transfer::Encoding::Float32}},
             "float16, or float32 for exact round trips")

@@ -196,11 +196,13 @@ Description describeMesh(const asset::MeshSummary& mesh) {
                                       : matrices ? matrices->encoding
                                                  : transfer::Encoding::Float32;
   const std::string where = mesh.width > 0
-                                ? fmt::format("{}x{} texels", mesh.width, mesh.height)
+                                ? fmt::format("{}x{} texels{}", mesh.width, mesh.height,
+                                              mesh.texCoord > 0 ? " of TEXCOORD_1" : "")
                                 : fmt::format("{} vertices", formatCount(mesh.receivers));
   d.text = fmt::format("  {}: {}{}, {}\n", called, where, what, nameOf(encoding));
   d.json.update({{"width", mesh.width},
                  {"height", mesh.height},
+                 {"tex_coord", mesh.texCoord},
                  {"encoding", nameOf(encoding)},
                  {"vector_bands", vectors ? vectors->bands : 0},
                  {"vector_channels", vectors ? vectors->channels : 0},

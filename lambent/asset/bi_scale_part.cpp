@@ -73,7 +73,7 @@ Wrong faultOfMatrices(Kind kind, const Matrices<Numbers>& matrices, const BiScal
 
 }  // namespace
 
-json toJson(const BiScale& biScale, scene_io::GltfBuilder& gltf) {
+json toJson(const BiScale& biScale, const scene::Mesh& mesh, scene_io::GltfBuilder& gltf) {
   json object = {{"rtt", biScale.patch.rtt},
                  {"bands", biScale.bands},
                  {"scale", biScale.patch.scale},
@@ -94,7 +94,7 @@ json toJson(const BiScale& biScale, scene_io::GltfBuilder& gltf) {
         toJson(matrices.numbers, gltf, std::move(members));
   });
   json whole = {{"biScale", std::move(object)}};
-  writeReceivers(*biScale.receivers, gltf, whole);
+  writeReceivers(*biScale.receivers, mesh, gltf, whole);
   return whole;
 }
 

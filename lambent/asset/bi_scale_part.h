@@ -9,7 +9,7 @@
 
 namespace lambent::asset {
 
-nlohmann::json toJson(const transfer::BiScale<transfer::Numbers>& biScale,
+nlohmann::json toJson(const transfer::BiScale<transfer::Numbers>& biScale, const scene::Mesh& mesh,
                       scene_io::GltfBuilder& gltf);
 transfer::BiScale<transfer::Numbers> biScaleFrom(JsonFields& object, AccessorReader& accessors,
                                                  transfer::SharedReceivers receivers);

@@ -40,6 +40,7 @@ Wrong faultOfGeometry(const scene::Mesh& mesh, std::size_t materials) {
   if (mesh.normals.size() != vertices)
     return text(mesh.normals.size()) + " normals for " + text(vertices) + " vertices";
   if ((!mesh.uvs.empty() && mesh.uvs.size() != vertices) ||
+      (!mesh.texelUvs.empty() && mesh.texelUvs.size() != vertices) ||
       (!mesh.colors.empty() && mesh.colors.size() != vertices))
     return std::string("texture coordinates or colours do not match the vertices");
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -51,7 +52,8 @@ Wrong faultOfGeometry(const scene::Mesh& mesh, std::size_t materials) {
     return std::all_of(values.begin(), values.end(),
                        [](const auto& v) { return v.array().isFinite().all(); });
   };
-  if (!finite(mesh.positions) || !finite(mesh.normals) || !finite(mesh.uvs) || !finite(mesh.colors))
+  if (!finite(mesh.positions) || !finite(mesh.normals) || !finite(mesh.uvs) ||
+      !finite(mesh.texelUvs) || !finite(mesh.colors))
     return std::string("a position, normal, texture coordinate or colour is not finite");
   return std::nullopt;
 }
@@ -116,8 +118,8 @@ PartBytes bytesOf(const Asset& asset) {
   PartBytes bytes;
   for (const scene::Mesh& mesh : asset.scene.meshes)
     bytes.geometry += bytesOf(mesh.positions).size() + bytesOf(mesh.normals).size() +
-                      bytesOf(mesh.uvs).size() + bytesOf(mesh.colors).size() +
-                      bytesOf(mesh.triangles).size();
+                      bytesOf(mesh.uvs).size() + bytesOf(mesh.texelUvs).size() +
+                      bytesOf(mesh.colors).size() + bytesOf(mesh.triangles).size();
   for (const scene::Texture& texture : asset.scene.textures)
     bytes.textures += texture.encoded.size();
   const transfer::ForEachKind countOne{[](const transfer::NoTransfer&) {},

@@ -214,10 +214,14 @@ Status GltfChecker::checkPrimitive(const json& primitive, const std::string& pla
     for (const char* name : {"POSITION", "NORMAL"})
       if (find(attributes, name) == nullptr)
         return bad(place + ".attributes." + name, "is missing, and transfer stands on it");
-    for (const char* needs : {"grid", "biScale"})
-      if (find(transfer, needs) != nullptr && find(attributes, "TEXCOORD_0") == nullptr)
-        return bad(place + ".attributes.TEXCOORD_0",
+    for (const char* needs : {"grid", "biScale"}) {
+      const json* looksUp = find(transfer, needs);
+      if (looksUp == nullptr) continue;
+      const std::string uvs = integer(looksUp, "texCoord") == 1 ? "TEXCOORD_1" : "TEXCOORD_0";
+      if (find(attributes, uvs) == nullptr)
+        return bad(place + ".attributes." + uvs,
                    std::string("is missing, and ") + needs + " is looked up with it");
+    }
   } else if (mode < 4 || mode > 6 || find(attributes, "POSITION") == nullptr) {
     return Status::ok();  // nothing to see
   }
@@ -225,9 +229,12 @@ Status GltfChecker::checkPrimitive(const json& primitive, const std::string& pla
   if (find(find(primitive, "extensions"), kDraco) != nullptr)
     return Status::ok();  // scene_io decodes and checks it
   std::optional<std::size_t> vertices;
-  for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"})
-    if (Status s = checkAttribute(*attributes, name, place + ".attributes." + name, vertices); !s)
-      return s;
+  // A second set of texture coordinates is none of this reader's unless a grid lies on it.
+  const bool second = integer(find(transfer, "grid"), "texCoord") == 1;
+  for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"})
+    if (second || std::string_view(name) != "TEXCOORD_1")
+      if (Status s = checkAttribute(*attributes, name, place + ".attributes." + name, vertices); !s)
+        return s;
   return checkIndices(primitive, place + ".indices", *vertices);
 }
 
@@ -259,7 +266,7 @@ Status GltfChecker::checkAttribute(const json& attributes, const std::string& na
   if (given == nullptr) return Status::ok();
   const std::int64_t accessor = asInteger(given).value_or(-1);
   const bool four = scene_io::text(element(document_, "accessors", accessor), "type") == "VEC4";
-  const int width = name == "TEXCOORD_0" ? 2 : name == "COLOR_0" && four ? 4 : 3;
+  const int width = name.starts_with("TEXCOORD_") ? 2 : name == "COLOR_0" && four ? 4 : 3;
   const json* view = find(element(document_, "accessors", accessor), "bufferView");
   if (view != nullptr && !asInteger(view))
     return bad(place, "accessor " + text(accessor) + " is of a bufferView that does not exist");

@@ -123,8 +123,8 @@ Wrong faultAtTexels(const transfer::Receivers& receivers, const transfer::AtTexe
     return "grid: " + text(receivers.normals.size()) + " normals for " + text(texels) + " texels";
   if (grid.covered.size() != texels)
     return "grid: " + text(grid.covered.size()) + " coverage flags for " + text(texels) + " texels";
-  if (mesh.uvs.size() != mesh.positions.size())
-    return std::string("grid: the primitive has no TEXCOORD_0 to look texels up with");
+  if (scene::texelUvsOf(mesh).size() != mesh.positions.size())
+    return std::string("grid: the primitive has no texture coordinates to look texels up with");
   if (const auto at = firstNonFinite(receivers.positions))
     return "grid: not a finite position at texel " + text(*at);
   if (const auto at = firstNonFinite(receivers.normals))

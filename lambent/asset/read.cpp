@@ -74,6 +74,20 @@ EncodedField rootOf(JsonFields root) {
   return field;
 }
 
+/// Takes TEXCOORD_1, which checkGltf found sound, where a grid lies on it.
+Status readTexelUvs(const GltfFile& file, const json& primitive, const json& object,
+                    scene::Mesh& mesh) {
+  if (scene_io::integer(scene_io::find(object, "grid"), "texCoord") != 1) return Status::ok();
+  const json* attributes = scene_io::find(primitive, "attributes");
+  const Result<std::vector<float>> uvs =
+      file.accessorFloats(scene_io::integer(attributes, "TEXCOORD_1").value_or(-1), 2);
+  if (!uvs) return uvs.error();
+  mesh.texelUvs.resize(uvs->size() / 2);
+  for (std::size_t v = 0; v < mesh.texelUvs.size(); ++v)
+    mesh.texelUvs[v] = Vec2(uvs->data() + 2 * v);
+  return Status::ok();
+}
+
 EncodedMesh meshFrom(JsonFields object, AccessorReader& accessors, const scene::Mesh& mesh,
                      Kind kind) {
   transfer::SharedReceivers receivers = receiversFrom(object, accessors, mesh);
@@ -137,7 +151,9 @@ Result<Asset> read(const std::filesystem::path& path, const ReadOptions& options
     }
     const std::string place = "meshes[" + std::to_string(origin.mesh) + "].primitives[" +
                               std::to_string(origin.primitive) + "].extensions." + kExtension;
-    const scene::Mesh& mesh = asset.scene.meshes[i];
+    scene::Mesh& mesh = asset.scene.meshes[i];
+    if (Status status = readTexelUvs(*file, primitive, *object, mesh); !status)
+      return status.error();
     EncodedMesh transfer =
         meshFrom(JsonFields(*object, place, fault), accessors, mesh, asset.transfer.kind);
     if (!fault.empty()) return report::badInput(name + ": " + fault);

@@ -8,8 +8,8 @@ namespace lambent::asset {
 using transfer::AtTexels;
 using transfer::Receivers;
 
-void writeReceivers(const Receivers& receivers, scene_io::GltfBuilder& gltf,
-                    nlohmann::json& object) {
+void writeReceivers(const Receivers& receivers, const scene::Mesh& mesh,
+                    scene_io::GltfBuilder& gltf, nlohmann::json& object) {
   object["layout"] = transfer::layoutOf(receivers);
   const AtTexels* grid = receivers.texels();
   if (!grid) return;
@@ -18,7 +18,7 @@ void writeReceivers(const Receivers& receivers, scene_io::GltfBuilder& gltf,
   };
   object["grid"] = {{"width", grid->width},
                     {"height", grid->height},
-                    {"texCoord", 0},
+                    {"texCoord", mesh.texelUvs.empty() ? 0 : 1},
                     {"positions", add(receivers.positions, Component::Float, "VEC3")},
                     {"normals", add(receivers.normals, Component::Float, "VEC3")},
                     {"covered", add(grid->covered, Component::UnsignedByte, "SCALAR")}};
@@ -37,7 +37,7 @@ transfer::SharedReceivers receiversFrom(JsonFields& object, AccessorReader& acce
     AtTexels texels;
     texels.width = int(grid.integer("width", 1, kLargestGrid));
     texels.height = int(grid.integer("height", 1, kLargestGrid));
-    grid.integer("texCoord", 0, 0);
+    grid.integer("texCoord", 0, 1);
     receivers.positions = accessors.read<Vec3>(grid, "positions", Component::Float, 3);
     receivers.normals = accessors.read<Vec3>(grid, "normals", Component::Float, 3);
     texels.covered = accessors.read<std::uint8_t>(grid, "covered", Component::UnsignedByte, 1);

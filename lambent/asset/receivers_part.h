@@ -9,8 +9,8 @@
 namespace lambent::asset {
 
 /// The member "layout" and, for texels, "grid". Adds the accessors of the grid.
-void writeReceivers(const transfer::Receivers& receivers, scene_io::GltfBuilder& gltf,
-                    nlohmann::json& object);
+void writeReceivers(const transfer::Receivers& receivers, const scene::Mesh& mesh,
+                    scene_io::GltfBuilder& gltf, nlohmann::json& object);
 transfer::SharedReceivers receiversFrom(JsonFields& object, AccessorReader& accessors,
                                         const scene::Mesh& mesh);
 void count(const transfer::Receivers& receivers, PartBytes& bytes);

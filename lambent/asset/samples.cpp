@@ -293,11 +293,42 @@ Asset keptShadowed() {
   return asset;
 }
 
+Asset secondUvs() {
+  Asset asset;
+  asset.scene.materials = {grey("grey")};
+  asset.scene.meshes = {square("on TEXCOORD_1", 0, Vec3::Zero())};
+  scene::Mesh& mesh = asset.scene.meshes[0];
+  for (Vec2& uv : mesh.uvs) {
+    mesh.texelUvs.emplace_back(1.0f - uv.x(), uv.y());
+    uv *= 3.0f;
+  }
+  asset.transfer = statement();
+  transfer::Receivers texels;
+  std::vector<float> numbers;
+  for (int texel = 0; texel < 4; ++texel) {
+    texels.positions.emplace_back(texel % 2 == 0 ? 0.5f : -0.5f, 0.0f, texel < 2 ? -0.5f : 0.5f);
+    const std::vector<float> one =
+        unoccluded(Rgb::Constant(std::ldexp(0.5f, -texel)), 1, Vec3::UnitY());
+    numbers.insert(numbers.end(), one.begin(), one.end());
+  }
+  texels.normals.assign(4, Vec3::UnitY());
+  texels.where = transfer::AtTexels{2, 2, {1, 1, 1, 1}};
+  Surface surface{std::make_shared<const transfer::Receivers>(texels), {}};
+  surface.responses.set(
+      Kind::Unshadowed,
+      {transfer::Diffuse<Numbers>{transfer::Albedo::Included,
+                                  {3, 1, transfer::encode(numbers, Encoding::Float32)}},
+       {}});
+  asset.transfer.meshes = {surface};
+  return asset;
+}
+
 std::vector<std::pair<std::string, Asset>> samples() {
   return {{"unoccluded-square.glb", unoccludedSquare()},
           {"every-layout.glb", everyLayout()},
           {"bi-scale.glb", biScale()},
-          {"kept-shadowed.glb", keptShadowed()}};
+          {"kept-shadowed.glb", keptShadowed()},
+          {"second-uvs.glb", secondUvs()}};
 }
 
 }  // namespace lambent::asset

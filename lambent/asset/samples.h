@@ -30,6 +30,11 @@ Asset biScale();
 /// get; what it reflects adds a half, a quarter and an eighth of that for red, green and blue.
 Asset keptShadowed();
 
+/// Vectors on 2×2 texels of TEXCOORD_1 (float32), on a square whose TEXCOORD_0 repeats over it. The
+/// second set mirrors u, so that a reader which takes the first one shows another picture: the
+/// texels' reflectances are ½, ¼, ⅛ and 1/16.
+Asset secondUvs();
+
 /// File name → asset.
 std::vector<std::pair<std::string, Asset>> samples();
 

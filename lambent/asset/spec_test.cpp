@@ -79,11 +79,22 @@ TEST(Spec, KeptShadowedTransferIsWhatTheSchemaSays) {
   const test::Folder folder;
   ASSERT_TRUE(write(keptShadowed(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
-  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.2");
+  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.3");
   const json described = schema("mesh.primitive");
   for (std::size_t i = 0; i < 2; ++i)
     expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][test::kName], described,
                     "mesh " + std::to_string(i));
+}
+
+TEST(Spec, AGridOverTheSecondSetOfUvsIsWhatTheSchemaSays) {
+  const test::Folder folder;
+  ASSERT_TRUE(write(secondUvs(), folder / "asset.glb"));
+  const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
+  const json& primitive = document["meshes"][0]["primitives"][0];
+  EXPECT_TRUE(primitive["attributes"].contains("TEXCOORD_1"));
+  const json& object = primitive["extensions"][test::kName];
+  EXPECT_EQ(object["grid"]["texCoord"], 1);
+  expectDescribed(object, schema("mesh.primitive"), "mesh 0");
 }
 
 TEST(Spec, SchemaNamesEveryEnumeration) {
@@ -114,8 +125,9 @@ TEST(Spec, CommittedSamplesReadAsMeant) {
 
 // As these versions wrote them: what has been baked stays readable.
 TEST(Spec, FilesOfOlderVersionsReadAsMeant) {
-  for (const auto& [file, asset] : {std::pair{"1.0/every-layout.glb", everyLayout()},
-                                    std::pair{"1.1/bi-scale.glb", biScale()}}) {
+  for (const auto& [file, asset] :
+       {std::pair{"1.0/every-layout.glb", everyLayout()}, std::pair{"1.1/bi-scale.glb", biScale()},
+        std::pair{"1.2/kept-shadowed.glb", keptShadowed()}}) {
     SCOPED_TRACE(file);
     const json document =
         json::parse(test::Glb::parse(test::bytesOf(test::kSpec / "samples" / file)).json);

@@ -76,6 +76,7 @@ MeshSummary summaryOf(const scene::Scene& scene, const scene::Mesh& mesh,
     summary.receivers = receivers->size();
     if (const transfer::AtTexels* grid = receivers->texels()) {
       summary.width = grid->width, summary.height = grid->height;
+      summary.texCoord = mesh.texelUvs.empty() ? 0 : 1;
       summary.covered = std::uint64_t(std::count(grid->covered.begin(), grid->covered.end(), 1));
     }
   }

@@ -60,6 +60,7 @@ struct MeshSummary {
   std::uint64_t vertices = 0, triangles = 0;
   std::string_view layout = transfer::kNoLayout;  ///< none, vertices or texels
   int width = 0, height = 0;                      ///< Texels only
+  int texCoord = 0;                               ///< of texels: the UV set that they lie on
   std::uint64_t receivers = 0;
   std::uint64_t covered = 0;  ///< Texels: receivers with a surface point of their own
   std::optional<VectorsSummary> vectors;

@@ -121,7 +121,8 @@ Wrong faultOfKept(Kind kind, const Response& kept, const Response& own, Kind fie
 
 }  // namespace
 
-json toJson(const Surface& surface, Kind kind, scene_io::GltfBuilder& gltf) {
+json toJson(const Surface& surface, const scene::Mesh& mesh, Kind kind,
+            scene_io::GltfBuilder& gltf) {
   json object = json::object();
   const Response& own = *surface.responses.find(kind);
   if (const auto& diffuse = own.diffuse)
@@ -141,7 +142,7 @@ json toJson(const Surface& surface, Kind kind, scene_io::GltfBuilder& gltf) {
   surface.responses.each([&](Kind held, const Response& response) {
     if (held != kind) object[std::string(transfer::nameOf(held))] = keptJson(response, gltf);
   });
-  writeReceivers(*surface.receivers, gltf, object);
+  writeReceivers(*surface.receivers, mesh, gltf, object);
   return object;
 }
 

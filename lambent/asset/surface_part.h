@@ -9,8 +9,8 @@
 namespace lambent::asset {
 
 /// `kind`: the field's, whose response is the primitive's own; what else is held stands beside it.
-nlohmann::json toJson(const transfer::Surface<transfer::Numbers>& surface, transfer::Kind kind,
-                      scene_io::GltfBuilder& gltf);
+nlohmann::json toJson(const transfer::Surface<transfer::Numbers>& surface, const scene::Mesh& mesh,
+                      transfer::Kind kind, scene_io::GltfBuilder& gltf);
 transfer::Surface<transfer::Numbers> surfaceFrom(JsonFields& object, AccessorReader& accessors,
                                                  transfer::SharedReceivers receivers,
                                                  transfer::Kind kind);

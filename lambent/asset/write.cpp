@@ -37,15 +37,17 @@ json rootObject(const transfer::EncodedField& field) {
 }
 
 /// None for a mirror.
-std::optional<json> primitiveObject(const transfer::EncodedMesh& mesh, transfer::Kind kind,
-                                    GltfBuilder& gltf) {
+std::optional<json> primitiveObject(const transfer::EncodedMesh& transfer, const scene::Mesh& mesh,
+                                    transfer::Kind kind, GltfBuilder& gltf) {
   using Object = std::optional<json>;
   return std::visit(
       transfer::ForEachKind{
           [](const transfer::NoTransfer&) -> Object { return std::nullopt; },
-          [&](const transfer::Surface<Numbers>& s) -> Object { return toJson(s, kind, gltf); },
-          [&](const transfer::BiScale<Numbers>& b) -> Object { return toJson(b, gltf); }},
-      mesh);
+          [&](const transfer::Surface<Numbers>& s) -> Object {
+            return toJson(s, mesh, kind, gltf);
+          },
+          [&](const transfer::BiScale<Numbers>& b) -> Object { return toJson(b, mesh, gltf); }},
+      transfer);
 }
 
 }  // namespace
@@ -66,7 +68,7 @@ Status write(const Asset& asset, const std::filesystem::path& path) {
   for (std::size_t i = 0; i < asset.transfer.meshes.size(); ++i) {
     // Before the look-up: it appends to the document.
     std::optional<json> object =
-        primitiveObject(asset.transfer.meshes[i], asset.transfer.kind, gltf);
+        primitiveObject(asset.transfer.meshes[i], asset.scene.meshes[i], asset.transfer.kind, gltf);
     if (!object) continue;
     json& primitive = gltf.json()["meshes"][i]["primitives"][0];
     file::objectAt(primitive, "extensions")[std::string(kExtensionName)] = std::move(*object);

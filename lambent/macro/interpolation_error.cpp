@@ -14,34 +14,33 @@ namespace {
 
 using transport::PlacedReceivers;
 
-/// The receivers at the corners of the samples' triangles, each once, by rising number.
-std::vector<std::uint32_t> cornersOf(const scene::Scene& scene, const PlacedReceivers& receivers,
-                                     const std::vector<SurfaceSample>& samples) {
-  std::vector<std::uint32_t> corners;
-  for (const SurfaceSample& sample : samples)
-    for (const std::uint32_t v : scene.meshes[sample.mesh].triangles[sample.triangle])
-      corners.push_back(receivers.meshes[sample.mesh].first + v);
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return corners;
+/// Every receiver that is named, once, by rising number.
+std::vector<std::uint32_t> receiversOf(const std::vector<transport::ReceiversAround>& arounds) {
+  std::vector<std::uint32_t> all;
+  for (const transport::ReceiversAround& around : arounds)
+    all.insert(all.end(), around.receiver.begin(),
+               around.receiver.begin() + std::ptrdiff_t(around.count));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
-
-struct SampleError {
-  double squared = 0.0;
-  bool counts = false;
-};
 
 }  // namespace
 
-Result<std::optional<InterpolationError>> interpolationError(
-    const scene::Scene& scene, const trace::RayScene& rays, const PlacedReceivers& receivers,
-    const InterpolationErrorOptions& options, const Progress& progress) {
+Result<std::vector<PlaceError>> placeErrors(const scene::Scene& scene, const trace::RayScene& rays,
+                                            const PlacedReceivers& receivers,
+                                            const std::vector<bool>& isLookedAt,
+                                            const InterpolationErrorOptions& options,
+                                            const Progress& progress) {
+  const Compared compared = options.withNormals ? Compared::Arriving : Compared::Blocked;
   const std::vector<SurfaceSample> samples =
-      drawSamples(scene, rays, receivers, options.samples, options.seed).samples;
-  if (samples.empty()) return std::optional<InterpolationError>();
+      drawSamples(scene, rays, isLookedAt, options.samples, options.seed).samples;
+  std::vector<transport::ReceiversAround> arounds;
+  for (const SurfaceSample& s : samples)
+    arounds.push_back(transport::receiversAround(scene, receivers, s.mesh, s.triangle, s.u, s.v));
   const SightTest test(rays, options.bands, options.seed);
   const work::Runner runner(progress, options.threads);
-  const std::vector<std::uint32_t> corners = cornersOf(scene, receivers, samples);
+  const std::vector<std::uint32_t> corners = receiversOf(arounds);
   const auto cornerSights =
       runner.map({"between receivers", "points"}, work::Chunks(corners.size()),
                  SightTest::Scratch(), [&](const work::Chunk& chunk, SightTest::Scratch& scratch) {
@@ -49,39 +48,49 @@ Result<std::optional<InterpolationError>> interpolationError(
                    return test.at({receivers.origins[r], receivers.normals[r]}, scratch);
                  });
   if (!cornerSights) return cornerSights.error();
-  const auto errors = runner.map(
+  return runner.map(
       {"between receivers", "points"}, work::Chunks(samples.size()), SightTest::Scratch(),
       [&](const work::Chunk& chunk, SightTest::Scratch& scratch) {
         const SurfaceSample& sample = samples[chunk.begin];
+        PlaceError place{sample.mesh, sample.triangle, std::nullopt};
         const scene::SurfacePoint point =
             scene::surfaceAt(scene, sample.mesh, sample.triangle, sample.u, sample.v);
         const Sight here =
             test.at({point.position + rays.offset() * point.normal, point.normal}, scratch);
-        if (here.buried) return SampleError();
-        std::array<const Sight*, 3> seen{};
-        const scene::Triangle& triangle = scene.meshes[sample.mesh].triangles[sample.triangle];
-        for (std::size_t k = 0; k < 3; ++k) {
-          const std::uint32_t r = receivers.meshes[sample.mesh].first + triangle[k];
-          const auto place = std::lower_bound(corners.begin(), corners.end(), r);
-          seen[k] = &(*cornerSights)[std::size_t(place - corners.begin())];
+        if (here.buried) return place;
+        const transport::ReceiversAround& around = arounds[chunk.begin];
+        Corners between;
+        between.count = around.count;
+        between.weights = around.weight;
+        for (std::size_t k = 0; k < around.count; ++k) {
+          const auto at = std::lower_bound(corners.begin(), corners.end(), around.receiver[k]);
+          between.seen[k] = &(*cornerSights)[std::size_t(at - corners.begin())];
         }
-        const Vec3 weights =
-            exposedWeights(seen, Vec3(1.0f - sample.u - sample.v, sample.u, sample.v));
-        return SampleError{test.squaredError(here, seen, weights, point.geometricNormal, scratch),
-                           true};
+        place.squared =
+            test.squaredError(here, exposed(between), point.geometricNormal, scratch, compared);
+        return place;
       });
-  if (!errors) return errors.error();
+}
+
+Result<std::optional<InterpolationError>> interpolationError(
+    const scene::Scene& scene, const trace::RayScene& rays, const PlacedReceivers& receivers,
+    const InterpolationErrorOptions& options, const Progress& progress) {
+  std::vector<bool> isLookedAt;
+  for (const PlacedReceivers::PerMesh& mesh : receivers.meshes)
+    isLookedAt.push_back(mesh.layout == transport::Layout::Vertices);
+  const auto places = placeErrors(scene, rays, receivers, isLookedAt, options, progress);
+  if (!places) return places.error();
+  if (places->empty()) return std::optional<InterpolationError>();
 
   InterpolationError found;
   std::vector<double> perMesh(scene.meshes.size(), 0.0);
   double sum = 0.0, beyond = 0.0;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const SampleError& error = (*errors)[k];
-    if (!error.counts) continue;
+  for (const PlaceError& place : *places) {
+    if (!place.squared) continue;
     ++found.samples;
-    sum += error.squared;
-    perMesh[samples[k].mesh] += error.squared;
-    if (error.squared > options.tolerance * options.tolerance) beyond += 1.0;
+    sum += *place.squared;
+    perMesh[place.mesh] += *place.squared;
+    if (*place.squared > options.tolerance * options.tolerance) beyond += 1.0;
   }
   const double count = std::max<double>(1.0, double(found.samples));
   found.rms = std::sqrt(std::max(0.0, sum / count));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
@@ -24,6 +25,9 @@ struct InterpolationErrorOptions {
   std::size_t samples = 2048;
   std::uint64_t seed = 0;
   int threads = 0;  ///< 0: as many as the machine has
+  /// Whether how normals turn between receivers counts as well as shadows: not between vertices,
+  /// which are what says how a surface is curved.
+  bool withNormals = false;
 };
 
 /// The difference between shadows (direct light that is blocked) interpolated over triangles and
@@ -37,6 +41,20 @@ struct InterpolationError {
   std::uint32_t worstMesh = 0;  ///< that has most of the squared error
   double worstMeshShare = 0.0;  ///< how much of it, 0 … 1
 };
+
+/// One of those places.
+struct PlaceError {
+  std::uint32_t mesh = 0, triangle = 0;
+  std::optional<double>
+      squared;  ///< an estimate without bias, were it below 0; none inside of bodies
+};
+/// On the meshes that are looked at ([mesh]), which have receivers, whatever these stand on. The
+/// same at any number of threads. Cancelled.
+Result<std::vector<PlaceError>> placeErrors(const scene::Scene& scene, const trace::RayScene& rays,
+                                            const transport::PlacedReceivers& receivers,
+                                            const std::vector<bool>& isLookedAt,
+                                            const InterpolationErrorOptions& options,
+                                            const Progress& progress);
 
 /// Of meshes whose receivers are vertices; `receivers` are the scene's. No value where there are
 /// none. The same at any number of threads. Cancelled.

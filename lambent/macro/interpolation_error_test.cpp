@@ -53,8 +53,8 @@ TEST(InterpolationError, IsThatOfAWallInClosedForm) {
       const Sight a = test.at(spot(near), scratch), b = test.at(spot(far), scratch);
       const Sight here = test.at(spot(0.5f * (near + far)), scratch);
       EXPECT_FALSE(here.buried);
-      sum +=
-          test.squaredError(here, {&a, &b, &b}, Vec3(0.5f, 0.25f, 0.25f), Vec3::UnitY(), scratch);
+      sum += test.squaredError(here, Corners::ofTriangle({&a, &b, &b}, Vec3(0.5f, 0.25f, 0.25f)),
+                               Vec3::UnitY(), scratch);
     }
     const double expected =
         hidden(0.5 * (near + far)) - 0.5 * (hidden(double(near)) + hidden(double(far)));
@@ -78,8 +78,8 @@ TEST(InterpolationError, NoiseIsTakenOut) {
       return test.at({Vec3(0.5f, rays->offset(), z), Vec3::UnitY()}, scratch);
     };
     const Sight a = see(-20), b = see(20), here = see(0);
-    const double e =
-        test.squaredError(here, {&a, &b, &b}, Vec3(0.5f, 0.5f, 0), Vec3::UnitY(), scratch);
+    const double e = test.squaredError(here, Corners::ofTriangle({&a, &b, &b}, Vec3(0.5f, 0.5f, 0)),
+                                       Vec3::UnitY(), scratch);
     sum += e, square += e * e;
   }
   const double error = std::sqrt(square / kSeeds / kSeeds);

@@ -44,10 +44,10 @@ struct TriangleId {
   std::uint32_t mesh, triangle;
 };
 
-struct Corners {
+struct CornerPlaces {
   std::array<Vec3d, 3> at;
 
-  Corners(const scene::Mesh& mesh, std::uint32_t triangle) {
+  CornerPlaces(const scene::Mesh& mesh, std::uint32_t triangle) {
     for (std::size_t k = 0; k < 3; ++k)
       at[k] = mesh.positions[mesh.triangles[triangle][k]].cast<double>();
   }
@@ -112,7 +112,7 @@ class Refinement {
       if (!sights) return sights.error();
       vertices_[m] = std::move(*sights);
     }
-    const SurfaceSamples drawn = drawSamples(scene_, rays_, receivers, kSamples, options_.seed);
+    const SurfaceSamples drawn = drawSamples(scene_, rays_, isLookedAt_, kSamples, options_.seed);
     std::vector<Spot> spots;
     for (const SurfaceSample& s : drawn.samples) {
       const scene::SurfacePoint point = scene::surfaceAt(scene_, s.mesh, s.triangle, s.u, s.v);
@@ -158,7 +158,7 @@ class Refinement {
         if (longest < 0) continue;
         const std::uint32_t edge = edges.ofTriangle[m][t][std::size_t(longest)];
         if (!(edges.lengths[edge] > leastEdge_)) continue;
-        const double area = 0.5 * Corners(scene_.meshes[m], t).cross().norm();
+        const double area = 0.5 * CornerPlaces(scene_.meshes[m], t).cross().norm();
         if (!(squared_[m][t].mean * std::min(area, wholeArea_) > most * wholeArea_)) continue;
         found.push_back({{m, t}, squared_[m][t].mean * area});
       }
@@ -199,7 +199,7 @@ class Refinement {
       double best = -1e30;
       for (std::uint32_t t = firstChild[m][parent]; t < firstChild[m][parent + 1]; ++t)
         if (const double inside =
-                Corners(scene_.meshes[m], t).weightsOf(sample.position).minCoeff();
+                CornerPlaces(scene_.meshes[m], t).weightsOf(sample.position).minCoeff();
             inside > best)
           best = inside, sample.in.triangle = t;
     }
@@ -250,7 +250,7 @@ class Refinement {
     const auto [m, t] = id;
     const scene::Mesh& mesh = scene_.meshes[m];
     const scene::Triangle& triangle = mesh.triangles[t];
-    const Corners corners(mesh, t);
+    const CornerPlaces corners(mesh, t);
     const Vec3d cross = corners.cross();
     if (!(cross.norm() > 0.0)) return {0.0f};
     const Vec3 plane = cross.normalized().cast<float>();
@@ -260,8 +260,8 @@ class Refinement {
     const auto compare = [&](const Sight& here, const Vec3& weights) {
       if (here.buried) return;
       // Where bodies touch, a bake sets buried corners so that what is seen is right.
-      const Vec3 used = exposedWeights(seen, weights);
-      const double error = test_.squaredError(here, seen, used, plane, scratch);
+      const Corners used = exposed(Corners::ofTriangle(seen, weights));
+      const double error = test_.squaredError(here, used, plane, scratch);
       sum += std::max(0.0, error), count += 1.0;
     };
     for (std::size_t k = 0; k < 3; ++k) {

@@ -16,19 +16,26 @@ bool isOpen(const Sight& sight, std::size_t bit) {
   return (sight.open[bit / 64] >> (bit % 64) & 1u) != 0;
 }
 
-float cosineWhereBlocked(const Sight& sight, std::size_t bit, const Vec3& direction) {
-  return isOpen(sight, bit) ? 0.0f : std::max(0.0f, sight.normal.dot(direction));
+float cosineWhere(bool open, const Sight& sight, std::size_t bit, const Vec3& direction) {
+  return isOpen(sight, bit) == open ? std::max(0.0f, sight.normal.dot(direction)) : 0.0f;
 }
 
 }  // namespace
 
-Vec3 exposedWeights(const std::array<const Sight*, 3>& corners, const Vec3& weights) {
-  Vec3 exposed = Vec3::Zero();
-  for (int k = 0; k < 3; ++k) exposed[k] = corners[std::size_t(k)]->buried ? 0.0f : 1.0f;
-  if (exposed.sum() == 0.0f) return weights;
-  const Vec3 left = exposed.cwiseProduct(weights);
-  // Between two buried corners the third speaks.
-  return left.sum() > 1e-3f ? Vec3(left / left.sum()) : Vec3(exposed / exposed.sum());
+Corners exposed(const Corners& corners) {
+  float open = 0.0f, left = 0.0f;
+  for (std::size_t k = 0; k < corners.count; ++k) {
+    if (corners.seen[k]->buried) continue;
+    open += 1.0f, left += corners.weights[k];
+  }
+  if (open == 0.0f) return corners;
+  Corners used = corners;
+  for (std::size_t k = 0; k < corners.count; ++k) {
+    float& weight = used.weights[k];
+    // Between buried corners the others speak.
+    weight = corners.seen[k]->buried ? 0.0f : left > 1e-3f ? weight / left : 1.0f / open;
+  }
+  return used;
 }
 
 SightTest::SightTest(const trace::RayScene& rays, int bands, std::uint64_t seed)
@@ -56,18 +63,18 @@ Sight SightTest::at(const Spot& spot, Scratch& scratch) const {
   return sight;
 }
 
-double SightTest::squaredError(const Sight& here, const std::array<const Sight*, 3>& corners,
-                               const Vec3& weights, const Vec3& planeNormal,
-                               Scratch& scratch) const {
+double SightTest::squaredError(const Sight& here, const Corners& corners, const Vec3& planeNormal,
+                               Scratch& scratch, Compared compared) const {
+  const bool open = compared == Compared::Arriving;
   for (std::size_t s = 0; s < 2; ++s) {
     scratch.ids.clear(), scratch.weights.clear();
     for (std::uint32_t d = 0; d < kSet; ++d) {
       const Vec3& direction = sets_[s][d];
       if (planeNormal.dot(direction) <= 0.0f) continue;
       const std::size_t bit = s * kSet + d;
-      float difference = cosineWhereBlocked(here, bit, direction);
-      for (int k = 0; k < 3; ++k)
-        difference -= weights[k] * cosineWhereBlocked(*corners[std::size_t(k)], bit, direction);
+      float difference = cosineWhere(open, here, bit, direction);
+      for (std::size_t k = 0; k < corners.count; ++k)
+        difference -= corners.weights[k] * cosineWhere(open, *corners.seen[k], bit, direction);
       if (std::abs(difference) < 1e-5f) continue;  // rounding
       scratch.ids.push_back(d), scratch.weights.push_back(difference);
     }

@@ -1,7 +1,7 @@
 // Private to this room: what points see of the sky, coarsely, and how far what is interpolated
-// between three points is from what a point between them sees. Light that is blocked is compared,
-// and not light that arrives: how normals turn between the corners of a smooth surface is no
-// shadow.
+// between three points is from what a point between them sees. Between vertices light that is blocked
+// is compared, and not light that arrives: how normals turn between the corners of a smooth surface
+// is no shadow.
 //
 // Radiance here is that of a white surface, of direct light. As a measure of a difference of two
 // transfer vectors serves the radiance that it makes under skies of n bands whose radiance has a
@@ -31,9 +31,24 @@ struct Sight {
   bool buried = false;  ///< most of what lies above is the back of surfaces
 };
 
-/// The weights of three corners without those that are buried, scaled to the same sum: what they
-/// would have is for nobody to see. As they are where all three are buried.
-Vec3 exposedWeights(const std::array<const Sight*, 3>& corners, const Vec3& weights);
+/// The places between which a place is interpolated: up to four, with weights that sum to 1.
+struct Corners {
+  std::array<const Sight*, 4> seen{};
+  std::array<float, 4> weights{};
+  std::size_t count = 0;
+
+  static Corners ofTriangle(const std::array<const Sight*, 3>& seen, const Vec3& weights) {
+    return {{seen[0], seen[1], seen[2]}, {weights[0], weights[1], weights[2]}, 3};
+  }
+};
+
+/// Without those that are buried, the others' weights scaled to the same sum: what they would have
+/// is for nobody to see. As they are where all are buried.
+Corners exposed(const Corners& corners);
+
+/// What is compared: light that is blocked, which tells of shadows alone, or light that arrives, which
+/// also tells how normals turn.
+enum class Compared { Blocked, Arriving };
 
 /// Where rays start and which way is up.
 struct Spot {
@@ -53,13 +68,12 @@ class SightTest {
   };
   Sight at(const Spot& spot, Scratch& scratch) const;
 
-  /// An estimate of e² (above) between what is hidden from `here` and what is interpolated of three
-  /// corners by `weights`, over directions above the plane of the triangle: those below meet the triangle
-  /// itself. Without bias, were it below 0: it is a product of what two independent sets of
+  /// An estimate of e² (above) between what is hidden from `here` (or not hidden) and what is
+  /// interpolated of its corners, over directions above the plane of its triangle: those below meet the triangle itself. Without bias, were it below 0: it is a product of what two independent sets of
   /// directions say, which have the difference in common and not the noise. Where all see the
   /// same it is exactly 0.
-  double squaredError(const Sight& here, const std::array<const Sight*, 3>& corners,
-                      const Vec3& weights, const Vec3& planeNormal, Scratch& scratch) const;
+  double squaredError(const Sight& here, const Corners& corners, const Vec3& planeNormal,
+                      Scratch& scratch, Compared compared = Compared::Blocked) const;
 
  private:
   const trace::RayScene& rays_;

@@ -60,13 +60,11 @@ Vec2 barycentricOf(const Vec2& square) {
 }  // namespace
 
 SurfaceSamples drawSamples(const scene::Scene& scene, const trace::RayScene& rays,
-                           const transport::PlacedReceivers& receivers, std::size_t count,
+                           const std::vector<bool>& isLookedAt, std::size_t count,
                            std::uint64_t seed) {
-  const auto atVertices = [&](std::uint32_t m) {
-    return receivers.meshes[m].layout == transport::Layout::Vertices;
-  };
+  const auto isSeen = [&](std::uint32_t m) { return bool(isLookedAt[m]); };
   SurfaceSamples drawn;
-  const TriangleDraw seen(scene, atVertices), all(scene, [](std::uint32_t) { return true; });
+  const TriangleDraw seen(scene, isSeen), all(scene, [](std::uint32_t) { return true; });
   if (seen.empty()) return drawn;
   const std::size_t half = std::max<std::size_t>(count / 2, 1);
   math::Random random(seed, 0x73616d70);
@@ -89,7 +87,7 @@ SurfaceSamples drawSamples(const scene::Scene& scene, const trace::RayScene& ray
         math::worldFromTangent(point.geometricNormal) * math::cosineHemisphere(aim);
     const auto hit =
         rays.closest(point.position + rays.offset() * point.geometricNormal, direction);
-    if (!hit || hit->backFace || !atVertices(hit->mesh)) continue;
+    if (!hit || hit->backFace || !isSeen(hit->mesh)) continue;
     drawn.samples.push_back({hit->mesh, hit->triangle, hit->u, hit->v});
     distances.push_back(hit->distance);
   }

@@ -7,7 +7,6 @@
 
 #include "lambent/scene/scene.h"
 #include "lambent/trace/ray_scene.h"
-#include "lambent/transport/receivers.h"
 
 namespace lambent::macro {
 
@@ -24,13 +23,13 @@ struct SurfaceSamples {
   float feature = 0.0f;
 };
 
-/// Points on meshes whose receivers are vertices. Half of `count` are spread evenly by area. The
+/// Points on the meshes that are looked at ([mesh]). Half of `count` are spread evenly by area. The
 /// rest are where something stands before the surface, however small it is beside it: from random
 /// places of all meshes, half by area and half by number of triangles, a ray is sent forth, spread
 /// as a white surface spreads light, and the front that it meets is a sample (fewer than half,
 /// where rays leave the scene). Depends on its arguments alone.
 SurfaceSamples drawSamples(const scene::Scene& scene, const trace::RayScene& rays,
-                           const transport::PlacedReceivers& receivers, std::size_t count,
+                           const std::vector<bool>& isLookedAt, std::size_t count,
                            std::uint64_t seed);
 
 }  // namespace lambent::macro

@@ -87,7 +87,7 @@ struct LitScene {
 
     const transfer::AtTexels* grid = surface->receivers->texels();
     const shade::ReceiverWeights at =
-        grid ? shade::ReceiverWeights::ofTexels(grid->width, grid->height, point.uv)
+        grid ? shade::ReceiverWeights::ofTexels(grid->width, grid->height, point.texelUv)
              : shade::ReceiverWeights::ofTriangle(mesh.triangles[hit.triangle], hit.u, hit.v);
     const shade::LitMesh& lit = meshes[hit.mesh];
     const Rgb diffuse = lit.diffuseAt(at);

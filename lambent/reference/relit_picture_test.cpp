@@ -80,6 +80,31 @@ TEST(RelitPicture, InterpolatesTexelsTheRightWayRound) {
           << x << ", " << y;
 }
 
+// Texels on a second set of texture coordinates: what the first one does is nothing to them, and what
+// the second one does is nothing to the base colour.
+TEST(RelitPicture, TexelsMayLieOnCoordinatesOfTheirOwn) {
+  asset::Asset first;
+  test::addTexels(first, test::floor(Vec3::Zero(), 1.0f), Vec3::UnitY(), 16, 11, 0,
+                  transfer::Encoding::Float16);
+  asset::Asset second = first;
+  scene::Mesh& mesh = second.scene.meshes[0];
+  mesh.texelUvs = mesh.uvs;
+  for (Vec2& uv : mesh.uvs) uv = 3.0f * uv - Vec2(0.7f, 0.1f);
+  const auto picture = [](const asset::Asset& asset) {
+    return relitPicture(asset, uniformLight(4, Rgb::Ones()), {},
+                        cameraAt(Vec3(0.5f, 3, 2), Vec3::Zero()), small(32, 2));
+  };
+  const auto one = picture(first), other = picture(second);
+  ASSERT_TRUE(one && other);
+  EXPECT_EQ(one->alpha, other->alpha);
+  for (std::size_t i = 0; i < one->pixels.size(); ++i)
+    EXPECT_TRUE((one->pixels[i] == other->pixels[i]).all());
+  for (Vec2& uv : mesh.texelUvs) uv.x() = 1.0f - uv.x();
+  const auto turned = picture(second);
+  ASSERT_TRUE(turned);
+  EXPECT_FALSE((one->at(10, 16) == turned->at(10, 16)).all());
+}
+
 TEST(RelitPicture, MirrorShowsTheEnvironment) {
   asset::Asset asset;
   test::addMirror(asset, test::sphere(Vec3::Zero(), 1.0f, 64), Rgb(1.0f, 0.5f, 0.25f));

@@ -135,6 +135,15 @@ TEST(GlPicture, TexelGrid) {
   expectAgreement("texels", asset, kCamera, small(4));
 }
 
+TEST(GlPicture, TexelsOnCoordinatesOfTheirOwn) {
+  asset::Asset asset;
+  scene::Mesh mesh = shade::test::floor(Vec3::Zero(), 1.6f);
+  for (const Vec2& uv : mesh.uvs) mesh.texelUvs.emplace_back(1.0f - uv.y(), uv.x());
+  shade::test::addTexels(asset, mesh, Vec3::UnitY(), 16, 11, 4, Encoding::Float16);
+  for (Vec2& uv : asset.scene.meshes[0].uvs) uv = 3.0f * uv - Vec2(0.7f, 0.1f);
+  expectAgreement("texel-uvs", asset, kCamera, small(4));
+}
+
 TEST(GlPicture, GlossyAtVerticesAndTexels) {
   asset::Asset asset;
   shade::test::addGlossy(asset, shade::test::sphere(Vec3(-1, 0.7f, 0), 0.7f, 12), 5, 4, 1,

@@ -40,6 +40,14 @@ std::vector<GpuVertex> gatherVertices(const scene::Mesh& mesh, const TriangleBat
   return vertices;
 }
 
+std::vector<Vec2> gatherTexelUvs(const scene::Mesh& mesh, const TriangleBatch& batch) {
+  const std::vector<Vec2>& uvs = scene::texelUvsOf(mesh);
+  std::vector<Vec2> gathered;
+  gathered.reserve(batch.vertices.size());
+  for (const std::uint32_t from : batch.vertices) gathered.push_back(uvs[from]);
+  return gathered;
+}
+
 /// Of the batch's triangles by their windings, not unit: four floats each.
 std::vector<float> gatherNormals(const scene::Mesh& mesh, const TriangleBatch& batch) {
   std::vector<float> normals;
@@ -220,6 +228,7 @@ Status GlSurfaces::add(std::uint32_t index, const shade::Showing& showing,
     geometry.vertices = makeBuffer(gatherVertices(mesh, batch));
     geometry.corners = makeBuffer(batch.corners);
     geometry.normals = makeBuffer(gatherNormals(mesh, batch));
+    if (grid) geometry.texelUvs = makeBuffer(gatherTexelUvs(mesh, batch));
     geometry.cornerCount = int(batch.corners.size());
     geometry.backs = backs;
     geometries_.push_back(std::move(geometry));
@@ -343,6 +352,7 @@ void GlSurfaces::draw(const GlView& view, const Around& around, const GlBaseColo
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, geometry.normals.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6,
                      draw.lit ? lit_[*draw.lit].sunShare.product.name() : 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, geometry.texelUvs.name());
     glVertexArrayElementBuffer(vertexArray, geometry.corners.name());
     cullBacks(geometry.backs);
     glDrawElements(GL_TRIANGLES, geometry.cornerCount, GL_UNSIGNED_INT, nullptr);

@@ -91,6 +91,7 @@ class GlSurfaces {
   enum class SurfaceKind { Vertices = 0, Texels = 1, Mirror = 2, Black = 3 };
   struct Geometry {
     Buffer vertices, corners, normals;
+    Buffer texelUvs;  ///< of vertices, if receivers are texels
     int cornerCount = 0;
     bool backs = false;  ///< of triangles: only what faces the eye is to be drawn
   };

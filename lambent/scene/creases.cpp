@@ -126,6 +126,7 @@ std::size_t creaseNormals(Mesh& mesh, float angle) {
       if (added) {
         appendCopy(mesh.positions, vertex);
         appendCopy(mesh.uvs, vertex);
+        appendCopy(mesh.texelUvs, vertex);
         appendCopy(mesh.colors, vertex);
         appendCopy(mesh.alphas, vertex);
         mesh.normals.push_back(Vec3::Zero());

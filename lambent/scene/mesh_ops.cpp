@@ -83,6 +83,7 @@ std::vector<std::uint32_t> dropUnusedVertices(Mesh& mesh) {
   keep(mesh.positions);
   keep(mesh.normals);
   keep(mesh.uvs);
+  keep(mesh.texelUvs);
   keep(mesh.colors);
   keep(mesh.alphas);
   for (Triangle& t : mesh.triangles)
@@ -95,11 +96,12 @@ Mesh merge(std::span<const Mesh> parts) {
   if (parts.empty()) return whole;
   whole.name = parts[0].name;
   whole.material = parts[0].material;
-  bool normals = true, uvs = true, colors = true, alphas = true;
+  bool normals = true, uvs = true, texelUvs = true, colors = true, alphas = true;
   for (const Mesh& part : parts) {
     if (part.positions.empty()) continue;
     normals = normals && !part.normals.empty();
     uvs = uvs && !part.uvs.empty();
+    texelUvs = texelUvs && !part.texelUvs.empty();
     colors = colors && !part.colors.empty();
     alphas = alphas && !part.alphas.empty();
   }
@@ -111,6 +113,7 @@ Mesh merge(std::span<const Mesh> parts) {
     append(whole.positions, part.positions);
     if (normals) append(whole.normals, part.normals);
     if (uvs) append(whole.uvs, part.uvs);
+    if (texelUvs) append(whole.texelUvs, part.texelUvs);
     if (colors) append(whole.colors, part.colors);
     if (alphas) append(whole.alphas, part.alphas);
     for (const auto& [a, b, c] : part.triangles) {

@@ -76,6 +76,9 @@ struct Mesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  ///< unit, one per position (loaders make them where a file has none)
   std::vector<Vec2> uvs;      ///< TEXCOORD_0 as glTF has it (v downwards), or empty
+  /// TEXCOORD_1: the surface laid out in the unit square, for receivers on texels alone; or empty:
+  /// those lie by `uvs`.
+  std::vector<Vec2> texelUvs;
   std::vector<Rgb> colors;    ///< linear COLOR_0, or empty
   std::vector<float> alphas;  ///< of COLOR_0, [0, 1], or empty: 1 everywhere
   std::vector<Triangle> triangles;
@@ -99,6 +102,11 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Camera> cameras;
 };
+
+/// The texture coordinates by which receivers on texels lie.
+inline const std::vector<Vec2>& texelUvsOf(const Mesh& mesh) {
+  return mesh.texelUvs.empty() ? mesh.uvs : mesh.texelUvs;
+}
 
 /// A mesh's material; the default one where it names none that there is.
 const Material& materialOf(const Scene& scene, const Mesh& mesh);
@@ -129,6 +137,7 @@ struct SurfacePoint {
   Vec3 normal;           ///< unit shading normal, on the front side
   Vec3 geometricNormal;  ///< unit, by the triangle's winding
   Vec2 uv = Vec2::Zero();
+  Vec2 texelUv = Vec2::Zero();  ///< by texelUvsOf(mesh)
   Rgb diffuse, glossy, mirror;  ///< reflectances with texture and vertex colour applied
   float lobeExponent = 0.0f;
   Rgb emission = Rgb::Zero();  ///< radiance that leaves the front by itself

@@ -19,6 +19,7 @@ Mesh withBacks(Mesh mesh) {
   appendAgain(mesh.positions);
   appendAgain(mesh.normals);
   appendAgain(mesh.uvs);
+  appendAgain(mesh.texelUvs);
   appendAgain(mesh.colors);
   appendAgain(mesh.alphas);
   for (std::size_t v = vertices; v < mesh.normals.size(); ++v) mesh.normals[v] = -mesh.normals[v];

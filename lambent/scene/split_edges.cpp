@@ -230,6 +230,7 @@ SplitScene splitEdges(const Scene& scene, const SceneEdges& edges,
     std::vector<MiddleVertex> made = middles.take();
     append(mesh.positions, made);
     append(mesh.uvs, made);
+    append(mesh.texelUvs, made);
     append(mesh.colors, made);
     append(mesh.alphas, made);
     appendNormals(mesh.normals, made);

@@ -76,7 +76,7 @@ void applyMaterial(const Scene& scene, const Mesh& mesh, const Vec2& uv, const R
                    SurfacePoint& point) {
   const Material& material = materialOf(scene, mesh);
   const Rgb base = baseColor(scene, mesh, uv, color);
-  point.uv = uv;
+  point.uv = point.texelUv = uv;
   point.diffuse = material.diffuse * base;
   point.glossy = material.glossy * base;
   point.mirror = material.mirror * base;
@@ -165,6 +165,8 @@ SurfacePoint surfaceAt(const Scene& scene, std::uint32_t meshIndex, std::uint32_
   Rgb color = Rgb::Ones();
   if (!mesh.colors.empty()) color = w * mesh.colors[i] + u * mesh.colors[j] + v * mesh.colors[k];
   applyMaterial(scene, mesh, uv, color, point);
+  if (!mesh.texelUvs.empty())
+    point.texelUv = w * mesh.texelUvs[i] + u * mesh.texelUvs[j] + v * mesh.texelUvs[k];
   return point;
 }
 
@@ -192,6 +194,7 @@ SurfacePoint surfaceAtVertex(const Scene& scene, std::uint32_t meshIndex, std::u
   const Vec2 uv = mesh.uvs.empty() ? Vec2(Vec2::Zero()) : mesh.uvs[vertex];
   const Rgb color = mesh.colors.empty() ? Rgb(Rgb::Ones()) : mesh.colors[vertex];
   applyMaterial(scene, mesh, uv, color, point);
+  if (!mesh.texelUvs.empty()) point.texelUv = mesh.texelUvs[vertex];
   return point;
 }
 

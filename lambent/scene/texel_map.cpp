@@ -12,7 +12,7 @@
 namespace lambent::scene {
 
 TexelMap texelMap(const Mesh& mesh, int width, int height) {
-  assert(width > 0 && height > 0 && mesh.uvs.size() == mesh.positions.size());
+  assert(width > 0 && height > 0 && texelUvsOf(mesh).size() == mesh.positions.size());
   TexelMap map;
   map.width = width, map.height = height;
   map.triangle.assign(std::size_t(width) * height, kNobody);

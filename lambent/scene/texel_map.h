@@ -1,5 +1,5 @@
-// A mesh seen from its texture: which place of the surface each texel of a grid over TEXCOORD_0
-// shows, and, for texels that show none, the nearest that does.
+// A mesh seen from its texture: which place of the surface each texel of a grid over its texel UVs
+// (texelUvsOf) shows, and, for texels that show none, the nearest that does.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void visitTexels(const Mesh& mesh, const Triangle& triangle, int width, int heig
   const auto cross = [](const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); };
   Point p[3];
   for (int k = 0; k < 3; ++k) {
-    const Vec2& uv = mesh.uvs[triangle[k]];
+    const Vec2& uv = texelUvsOf(mesh)[triangle[k]];
     p[k] = Point(double(uv.x()) * width - 0.5, double(uv.y()) * height - 0.5);
   }
   const double area = cross(p[1] - p[0], p[2] - p[0]);

@@ -18,7 +18,8 @@ double depthInside(const Mesh& mesh, const Triangle& triangle, int width, int he
                    double v) {
   Eigen::Vector2d p[3];
   for (int k = 0; k < 3; ++k)
-    p[k] = mesh.uvs[triangle[k]].cast<double>().cwiseProduct(Eigen::Vector2d(width, height));
+    p[k] =
+        texelUvsOf(mesh)[triangle[k]].cast<double>().cwiseProduct(Eigen::Vector2d(width, height));
   const Eigen::Vector2d e = p[1] - p[0], f = p[2] - p[0];
   const double area = std::abs(e.x() * f.y() - e.y() * f.x());
   // A barycentric coordinate is 1 at its corner, and that far from the opposite edge.
@@ -41,13 +42,14 @@ std::string number(double value) {
 Status checkUvs(const Mesh& mesh, int width, int height) {
   assert(width > 0 && height > 0);
   const std::string name = describe(mesh);
-  if (mesh.uvs.size() != mesh.positions.size() || mesh.uvs.empty()) {
+  const std::vector<Vec2>& uvs = texelUvsOf(mesh);
+  if (uvs.size() != mesh.positions.size() || uvs.empty()) {
     return report::badInput(name +
                             " has no texture coordinates, which a texel grid needs; unwrap it in a "
                             "modelling program, or bake at its vertices");
   }
-  for (std::size_t i = 0; i < mesh.uvs.size(); ++i) {
-    const Vec2& uv = mesh.uvs[i];
+  for (std::size_t i = 0; i < uvs.size(); ++i) {
+    const Vec2& uv = uvs[i];
     if (!(uv.minCoeff() >= -1e-5f && uv.maxCoeff() <= 1.0f + 1e-5f)) {
       return report::badInput(
           name + ": vertex " + std::to_string(i) + " has the texture coordinate (" +

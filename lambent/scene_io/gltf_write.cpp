@@ -175,6 +175,7 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     };
     attribute("NORMAL", asBytes(mesh.normals), "VEC3");
     attribute("TEXCOORD_0", asBytes(mesh.uvs), "VEC2");
+    attribute("TEXCOORD_1", asBytes(mesh.texelUvs), "VEC2");
     if (mesh.alphas.empty())
       attribute("COLOR_0", asBytes(mesh.colors), "VEC3");
     else

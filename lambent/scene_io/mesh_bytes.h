@@ -9,8 +9,9 @@ namespace lambent::scene_io {
 
 inline std::uint64_t bytesOf(const scene::Mesh& mesh) {
   return mesh.positions.size() * sizeof(Vec3) + mesh.normals.size() * sizeof(Vec3) +
-         mesh.uvs.size() * sizeof(Vec2) + mesh.colors.size() * sizeof(Rgb) +
-         mesh.alphas.size() * sizeof(float) + mesh.triangles.size() * sizeof(scene::Triangle);
+         (mesh.uvs.size() + mesh.texelUvs.size()) * sizeof(Vec2) +
+         mesh.colors.size() * sizeof(Rgb) + mesh.alphas.size() * sizeof(float) +
+         mesh.triangles.size() * sizeof(scene::Triangle);
 }
 
 }  // namespace lambent::scene_io

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lambent/scene/texel_map.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/shade.h"
@@ -150,6 +151,22 @@ std::vector<Rgb> colorsAtTexels(const Mesh& mesh, int width, int height) {
   return colors;
 }
 
+/// On a layout of its own; texels that show nothing have the colour of the nearest that does.
+std::vector<Rgb> colorsAtLayout(const Scene& scene, std::uint32_t meshIndex,
+                                const transfer::AtTexels& grid) {
+  const scene::TexelMap map = scene::texelMap(scene.meshes[meshIndex], grid.width, grid.height);
+  std::vector<std::uint8_t> covered(map.size());
+  for (std::size_t t = 0; t < map.size(); ++t) covered[t] = map.covered(t);
+  const std::vector<std::uint32_t> nearest = scene::nearestFull(grid.width, grid.height, covered);
+  std::vector<Rgb> colors(map.size(), Rgb::Ones());
+  for (std::size_t t = 0; t < map.size(); ++t) {
+    if (nearest[t] == scene::kNobody) continue;
+    const Vec2& at = map.barycentric[nearest[t]];
+    colors[t] = scene::baseColorAt(scene, meshIndex, map.triangle[nearest[t]], at.x(), at.y());
+  }
+  return colors;
+}
+
 }  // namespace
 
 std::vector<Rgb> receiverBaseColors(const Scene& scene, std::uint32_t meshIndex,
@@ -158,6 +175,7 @@ std::vector<Rgb> receiverBaseColors(const Scene& scene, std::uint32_t meshIndex,
   const Texture* texture = baseTexture(scene, mesh);
   if (mesh.colors.empty() && !texture) return {};
   const transfer::AtTexels* grid = receivers.texels();
+  if (grid && !mesh.texelUvs.empty()) return colorsAtLayout(scene, meshIndex, *grid);
   std::vector<Rgb> base;
   if (mesh.colors.empty())
     base.assign(receivers.size(), Rgb::Ones());

@@ -14,7 +14,7 @@ namespace lambent::transfer {
 /// One at each vertex of the mesh, in its sequence.
 struct AtVertices {};
 
-/// One at each texel of a grid over TEXCOORD_0, row 0 at v = 0.
+/// One at each texel of a grid over the mesh's texel UVs (scene::texelUvsOf), row 0 at v = 0.
 struct AtTexels {
   int width = 0, height = 0;
   std::vector<std::uint8_t> covered;  ///< 1 where a surface point stands, 0 dilated or empty

@@ -8,6 +8,7 @@
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/texel_map.h"
 #include "lambent/transport/texel_charts.h"
+#include "lambent/transport/texel_taps.h"
 
 namespace lambent::transport {
 
@@ -92,6 +93,12 @@ Status placeTexels(const scene::Scene& scene, const TexelGrid& asked, float offs
       }
       grid.receiverOfTexel[texel] = own;
     }
+  }
+  for (const TexelBeyond& beyond : asked.beyond) {
+    std::uint32_t& place = grid.receiverOfTexel[beyond.texel];
+    if (place != kNobody) continue;
+    place = static_cast<std::uint32_t>(receivers.size());
+    add(receivers, beyond.point, beyond.point.position + offset * beyond.point.normal);
   }
   dilate(grid);
   return Status::ok();
@@ -213,6 +220,27 @@ std::vector<std::uint32_t> spatialOrder(const PlacedReceivers& receivers) {
   return order;
 }
 
+ReceiversAround receiversAround(const scene::Scene& scene, const PlacedReceivers& receivers,
+                                std::uint32_t mesh, std::uint32_t triangle, float u, float v) {
+  const PlacedReceivers::PerMesh& place = receivers.meshes[mesh];
+  const scene::Triangle& corners = scene.meshes[mesh].triangles[triangle];
+  const float w = 1.0f - u - v;
+  if (place.layout == Layout::Vertices)
+    return {{place.first + corners[0], place.first + corners[1], place.first + corners[2]},
+            {w, u, v},
+            3};
+  const std::vector<Vec2>& uvs = scene::texelUvsOf(scene.meshes[mesh]);
+  const Vec2 uv = w * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]];
+  const TexelTaps taps = tapsAt(uv, place.width, place.height);
+  ReceiversAround around;
+  around.count = 4;
+  for (std::size_t k = 0; k < 4; ++k) {
+    around.receiver[k] = place.receiverOfTexel[taps.texels[k]];
+    around.weight[k] = static_cast<float>(taps.weights[k]);
+  }
+  return around;
+}
+
 std::uint32_t drawReceiver(const scene::Scene& scene, const PlacedReceivers& receivers,
                            std::uint32_t mesh, std::uint32_t triangle, float u, float v, float u1,
                            float u2) {
@@ -222,7 +250,7 @@ std::uint32_t drawReceiver(const scene::Scene& scene, const PlacedReceivers& rec
     const float w = 1.0f - u - v;
     return place.first + corners[u1 < w ? 0 : (u1 < w + u ? 1 : 2)];
   }
-  const std::vector<Vec2>& uvs = scene.meshes[mesh].uvs;
+  const std::vector<Vec2>& uvs = scene::texelUvsOf(scene.meshes[mesh]);
   const Vec2 uv = (1.0f - u - v) * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]];
   const auto cell = [](float coordinate, int count, float random) {
     const float at = coordinate * static_cast<float>(count) - 0.5f;

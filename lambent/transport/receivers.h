@@ -1,6 +1,8 @@
 // Where transfer is recorded: the vertices of a mesh, or the texels of a grid over its UVs.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,10 +12,20 @@
 
 namespace lambent::transport {
 
-/// A mesh whose receivers are to be texels of a width×height grid over its UV set.
+/// A texel outside of all charts, y·width + x, and the place beyond a chart's border that it shows.
+struct TexelBeyond {
+  std::uint32_t texel = 0;
+  scene::SurfacePoint point;
+};
+
+/// A mesh whose receivers are to be texels of a width×height grid over its texel UVs.
 struct TexelGrid {
   std::uint32_t mesh = 0;
   int width = 256, height = 256;
+  /// Where the surface goes on beyond a chart's border, texels beside it may show it: light that is
+  /// interpolated along the border then comes out the same on both sides. Those that are not named
+  /// here copy the nearest that shows something.
+  std::vector<TexelBeyond> beyond = {};
 };
 
 /// A mesh that carries meso-structure: its receivers are its vertices, and what they record is the
@@ -76,6 +88,17 @@ Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placemen
 /// same part of the acceleration structure: a scan with its vertices in any sequence is baked as
 /// fast as a well-ordered one.
 std::vector<std::uint32_t> spatialOrder(const PlacedReceivers& receivers);
+
+/// The receivers between which a point of a surface is interpolated: the corners of its triangle, or
+/// the four texels around it. Weights sum to 1; texels may share a receiver, which then comes twice.
+struct ReceiversAround {
+  std::array<std::uint32_t, 4> receiver{};
+  std::array<float, 4> weight{};
+  std::size_t count = 0;
+};
+/// Its mesh must have receivers.
+ReceiversAround receiversAround(const scene::Scene& scene, const PlacedReceivers& receivers,
+                                std::uint32_t mesh, std::uint32_t triangle, float u, float v);
 
 /// The receiver that stands for a point of a surface: one of the corners of its triangle (or of
 /// the four texels around it), drawn in proportion to the weights of linear interpolation. An

@@ -32,13 +32,14 @@ struct CornerHash {
 };
 
 double areaOfUvs(const scene::Mesh& mesh, const scene::Triangle& t) {
-  const Eigen::Vector2d a = mesh.uvs[t[0]].cast<double>();
-  const Eigen::Vector2d e = mesh.uvs[t[1]].cast<double>() - a,
-                        f = mesh.uvs[t[2]].cast<double>() - a;
+  const Eigen::Vector2d a = scene::texelUvsOf(mesh)[t[0]].cast<double>();
+  const Eigen::Vector2d e = scene::texelUvsOf(mesh)[t[1]].cast<double>() - a,
+                        f = scene::texelUvsOf(mesh)[t[2]].cast<double>() - a;
   return std::abs(e.x() * f.y() - e.y() * f.x());
 }
 
-/// Of a mesh on texels: the chart whose light each texel holds.
+/// Of a mesh on texels: the chart whose light each texel holds; kNobody for those that show what lies
+/// beyond the border of the chart beside them.
 std::vector<std::uint32_t> chartOfTexels(const scene::Mesh& mesh,
                                          const PlacedReceivers::PerMesh& place,
                                          const std::vector<std::uint32_t>& charts) {
@@ -66,7 +67,7 @@ std::vector<std::uint32_t> cornersOf(const scene::Mesh& mesh) {
   std::vector<std::uint32_t> ids(mesh.positions.size());
   for (std::size_t v = 0; v < ids.size(); ++v) {
     const Vec3 p = mesh.positions[v] + Vec3::Zero();  // −0 equals +0
-    const Vec2 uv = mesh.uvs[v] + Vec2::Zero();
+    const Vec2 uv = scene::texelUvsOf(mesh)[v] + Vec2::Zero();
     const Corner corner = {std::bit_cast<std::uint32_t>(p.x()), std::bit_cast<std::uint32_t>(p.y()),
                            std::bit_cast<std::uint32_t>(p.z()),
                            std::bit_cast<std::uint32_t>(uv.x()),
@@ -112,7 +113,9 @@ std::vector<TinyChart> tinyCharts(const scene::Mesh& mesh, int width, int height
   for (std::size_t c = 0; c < largest.size(); ++c) {
     if (held[c]) continue;
     const scene::Triangle& t = mesh.triangles[largest[c]];
-    const Vec2 middle = (mesh.uvs[t[0]] + mesh.uvs[t[1]] + mesh.uvs[t[2]]) / 3.0f;
+    const Vec2 middle = (scene::texelUvsOf(mesh)[t[0]] + scene::texelUvsOf(mesh)[t[1]] +
+                         scene::texelUvsOf(mesh)[t[2]]) /
+                        3.0f;
     const TexelTaps taps = tapsAt(middle, width, height);
     TinyChart& chart = tiny.emplace_back(TinyChart{largest[c], {}});
     for (const std::uint32_t texel : taps.texels)
@@ -146,8 +149,10 @@ Findings chartFindings(const scene::Scene& scene, const PlacedReceivers& receive
                                                          (y + 0.5) / kLookupsAcrossTexel - 0.5,
                                                          place.width, place.height);
                            double other = 0.0;
-                           for (int k = 0; k < 4; ++k)
-                             if (ofTexel[taps.texels[k]] != charts[t]) other += taps.weights[k];
+                           for (int k = 0; k < 4; ++k) {
+                             const std::uint32_t chart = ofTexel[taps.texels[k]];
+                             if (chart != charts[t] && chart != kNobody) other += taps.weights[k];
+                           }
                            ++lookups;
                            mixed += other > kMixed;
                          });

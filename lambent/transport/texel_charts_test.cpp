@@ -37,6 +37,14 @@ TEST(TexelCharts, AreWhatHangsTogether) {
   EXPECT_TRUE(tinyCharts(mesh, 30, 30).empty());
 }
 
+TEST(TexelCharts, AreThoseOfTheTexelUvs) {
+  scene::Mesh mesh = squares(4, 2.0f, 32);
+  mesh.texelUvs = mesh.uvs;
+  for (Vec2& uv : mesh.uvs) uv = Vec2(0.5f, 0.5f) + 7.0f * uv;  // fit for nothing but a texture
+  EXPECT_TRUE(findingsOf(mesh, 32).empty());
+  EXPECT_EQ(chartsOf(mesh), chartsOf(squares(4, 2.0f, 32)));
+}
+
 TEST(TexelCharts, WithoutAGutterIsSaid) {
   EXPECT_TRUE(findingsOf(squares(4, 2.0f, 32), 32).empty());
   EXPECT_TRUE(findingsOf(scene::gridPlane(1, 1, 8, 8), 8).empty());

@@ -105,7 +105,7 @@ TexelSeams::TexelSeams(const scene::Mesh& mesh, const PlacedReceivers::PerMesh& 
   const Vec2 size(static_cast<float>(place.width), static_cast<float>(place.height));
   std::vector<std::map<std::uint32_t, double>> differences;  // texel → a − b, of every place
   for (const auto& [one, other] : seamsOf(mesh)) {
-    const auto& uvs = mesh.uvs;
+    const auto& uvs = scene::texelUvsOf(mesh);
     const auto texelsAlong = [&](const Side& side) {
       return (uvs[side.to] - uvs[side.from]).cwiseProduct(size).norm();
     };

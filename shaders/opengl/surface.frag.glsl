@@ -43,6 +43,8 @@ in float vertexAlpha;
 #endif
 #if LAMBENT_KIND == 0
 in vec3 exitRadiance;
+#elif LAMBENT_KIND == 1
+in vec2 texelUv;
 #endif
 layout(location = 0) out vec4 radiance;
 
@@ -95,7 +97,7 @@ Texels texels;
 
 // False where the place falls on rows that another draw shades.
 bool chooseTexels() {
-  texels = texelsAround(uv(), grid);
+  texels = texelsAround(texelUv, grid);
   int first = rows.x * grid.x, end = rows.y * grid.x;
   if (texels.receiver.x < first || texels.receiver.x >= end) return false;
   texels.receiver -= first;

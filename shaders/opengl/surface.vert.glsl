@@ -17,6 +17,11 @@ layout(std430, binding = 3) readonly buffer Lobe { vec4 lobe[]; };  // [receiver
 
 layout(std430, binding = 6) readonly buffer SunShare { float sunShare[]; };  // [receiver][3]
 
+#if LAMBENT_KIND == 1
+layout(std430, binding = 7) readonly buffer TexelUvs { vec2 texelUvs[]; };
+out vec2 texelUv;
+#endif
+
 uniform mat4 clipFromWorld;
 uniform bool hasDiffuse, hasSunShare;  // the share is to be taken out
 
@@ -38,6 +43,9 @@ void main() {
   position = vertex.positionU.xyz;
   normalU = vec4(vertex.normalV.xyz, vertex.positionU.w);
   colorV = vec4(vertex.color.rgb, vertex.normalV.w);
+#if LAMBENT_KIND == 1
+  texelUv = texelUvs[gl_VertexID];
+#endif
 #if LAMBENT_ALPHA
   vertexAlpha = vertex.color.a;
 #endif

@@ -60,6 +60,30 @@ class Bake(ToolTest):
         self.run_tool("shade", "plane.glb", "--light", "uniform", "-o", "plane.csv")
         self.assertEqual(len(read_csv(self.path("plane.csv"))), 24 * 16)
 
+    def test_texels_on_a_layout_that_is_made_for_them(self):
+        self.write("ball.obj", ball_obj(24, 12))
+        self.write("tiled.obj", quad_obj(((0, 0), (4, 0), (4, -4), (0, -4))))
+        options = ("--texels", "auto", "--texel-budget", 4096, "--directions", 64, "--bounces", 0)
+        # Beside the coordinates that a mesh has, or as those that it has not.
+        for scene, tex_coord in (("ball", 0), ("tiled", 1)):
+            summary = self.run_json("bake", scene + ".obj", "-o", scene + ".glb", *options)
+            (mesh,) = summary["transfer"]["meshes"]
+            (layout,) = summary["texel_layout"]["meshes"]
+            self.assertEqual((mesh["layout"], mesh["width"], mesh["height"], mesh["tex_coord"]),
+                             ("texels", layout["size"], layout["size"], tex_coord))
+            self.assertLessEqual(summary["texel_layout"]["texels"], 4096)
+            # It is there for every way of looking, and for another bake.
+            self.run_tool("shade", scene + ".glb", "--light", "uniform", "-o", "a.csv")
+            self.assertEqual(len(read_csv(self.path("a.csv"))), layout["size"] ** 2)
+            self.run_tool("render", scene + ".glb", "--light", "uniform", "-o", "cpu.exr",
+                          "--backend", "cpu", "--size", "32x32")
+            self.run_tool("bake", scene + ".glb", "-o", "again.glb", *options)
+            validate = Path(__file__).parent.parent / "gltf" / "validate.mjs"
+            subprocess.run(["node", validate, "--modules", GLTF_MODULES,
+                            self.path(scene + ".glb")], check=True, capture_output=True)
+        one = self.bake("ball.obj", "one.glb", *options, "--threads", 1).read_bytes()
+        self.assertTrue(one == self.path("ball.glb").read_bytes())
+
     def test_glossy_has_matrices_and_its_lobe_is_free(self):
         summary = self.run_json(
             "bake", str(self.write("ball.obj", ball_obj())), "-o", "ball.glb", "--directions", 256,

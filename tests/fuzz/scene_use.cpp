@@ -22,6 +22,8 @@ void requireSound(const scene::Mesh& mesh, std::size_t materials) {
   require(!mesh.triangles.empty(), "a mesh has triangles");
   require(mesh.normals.size() == vertices, "every vertex has a normal");
   require(mesh.uvs.empty() || mesh.uvs.size() == vertices, "UVs belong to vertices");
+  require(mesh.texelUvs.empty() || mesh.texelUvs.size() == vertices,
+          "texel UVs belong to vertices");
   require(mesh.colors.empty() || mesh.colors.size() == vertices, "colours belong to vertices");
   for (const scene::Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t vertex : triangle) {

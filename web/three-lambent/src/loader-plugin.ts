@@ -109,7 +109,7 @@ function checkGeometry({ geometry }: Mesh, key: string): void {
         throw new LambentFormatError(`${place}.attributes.${name}: a number is not finite`);
   }
   if (!geometry.hasAttribute("normal")) geometry.computeVertexNormals();
-  for (const name of ["normal", "uv", "color"])
+  for (const name of ["normal", "uv", "uv1", "color"])
     if (geometry.hasAttribute(name) && geometry.getAttribute(name).count !== position.count)
       throw new LambentFormatError(`${place}.attributes: not as many ${name}s as positions`);
 }

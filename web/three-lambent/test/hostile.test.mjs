@@ -30,11 +30,17 @@ describe("samples", () => {
     "every-layout.glb",
     "bi-scale.glb",
     "kept-shadowed.glb",
+    "second-uvs.glb",
   ])
     it(name, async () => {
       const description = await read(sample(name));
       assert.ok(description.primitives.size > 0);
     });
+
+  it("a grid may lie on the second set of texture coordinates", async () => {
+    const { primitives } = await read(sample("second-uvs.glb"));
+    assert.equal(primitives.get("0/0").grid.texCoord, 1);
+  });
 
   it("every layout has what the text says", async () => {
     const { primitives } = await read(sample("every-layout.glb"));

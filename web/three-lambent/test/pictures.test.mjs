@@ -81,6 +81,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     bake("sheet", "sheet");
     bake("leaf", "leaf");
     bake("texel", "texel", "--texels", "sheet=48x40");
+    bake("matt", "matt-auto", "--texels", "auto", "--texel-budget", 4096);
     const patch = [
       "--positions",
       "24x20",
@@ -241,6 +242,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
   it("two sides", () => agree("sheet", "sheet.glb"));
   it("holes", () => agree("leaf", "leaf.glb"));
   it("texels, matt and glossy", () => agree("texel", "texel.glb"));
+  it("texels on a second set of texture coordinates", () => agree("matt-auto", "matt-auto.glb"));
   it("meso-structure with an id map", () => agree("patch", "patch.glb"));
   it("… with light fetched per pixel", () =>
     agree("patch-fetch", "patch.glb", [], { incident: "fetch" }));

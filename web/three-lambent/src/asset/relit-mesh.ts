@@ -302,6 +302,7 @@ export class RelitMesh {
       air: choices.air,
       captured: choices.captured,
       ...{ albedoOutside, lobeBands, fetch, map, colored, uv, gaps },
+      texelUv: grid?.texCoord === 1,
     };
     this.show(makeSurfaceMaterial(shape, uniforms));
   }

@@ -143,9 +143,14 @@ export class AccessorReader {
    */
   async attribute(
     attributes: Fields,
-    name: "POSITION" | "NORMAL" | "TEXCOORD_0" | "COLOR_0",
+    name: "POSITION" | "NORMAL" | "TEXCOORD_0" | "TEXCOORD_1" | "COLOR_0",
   ): Promise<{ count: number; width: number; floats: Float32Array | null }> {
-    const types = { POSITION: ["VEC3"], NORMAL: ["VEC3"], TEXCOORD_0: ["VEC2"] } as const;
+    const types = {
+      POSITION: ["VEC3"],
+      NORMAL: ["VEC3"],
+      TEXCOORD_0: ["VEC2"],
+      TEXCOORD_1: ["VEC2"],
+    } as const;
     const accessor = this.accessor(attributes, name);
     const type = accessor.oneOf(
       "type",

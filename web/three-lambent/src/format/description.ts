@@ -39,6 +39,8 @@ export interface Matrices {
 export interface Grid {
   width: number;
   height: number;
+  /** The UV set that it lies on: TEXCOORD_0 or TEXCOORD_1. */
+  texCoord: 0 | 1;
   normals: Float32Array;
 }
 

@@ -143,7 +143,7 @@ function bandsOf(fields: Fields, key: string, most: number): number {
 async function readGrid(fields: Fields, accessors: AccessorReader): Promise<Grid> {
   const width = fields.integer("width", 1, kLargestGrid);
   const height = fields.integer("height", 1, kLargestGrid);
-  fields.integer("texCoord", 0, 0);
+  const texCoord = fields.integer("texCoord", 0, 1) as 0 | 1;
   const texels = width * height;
   await accessors.vectors(fields, "positions", texels);
   const normals = await accessors.vectors(fields, "normals", texels);
@@ -152,7 +152,7 @@ async function readGrid(fields: Fields, accessors: AccessorReader): Promise<Grid
     fields.fail("covered", `${covered.length} flags where ${texels} texels need one each`);
   const odd = covered.findIndex((c) => c > 1);
   if (odd >= 0) fields.fail("covered", `is ${covered[odd]} at texel ${odd}, not 0 or 1`);
-  return { width, height, normals };
+  return { width, height, texCoord, normals };
 }
 
 async function readMacro(

@@ -122,6 +122,11 @@ function shownMeshes(json: Json): Set<number> {
   return shown;
 }
 
+/** The UV set that a member of a primitive's transfer names. */
+function texCoordOf(transfer: Fields, member: string): unknown {
+  return transfer.has(member) ? memberOf(transfer.raw(member), "texCoord") : undefined;
+}
+
 /** Checks a primitive; its vertices and normals, or null where it has nothing to see. */
 async function checkPrimitive(
   primitive: Fields,
@@ -148,16 +153,21 @@ async function checkPrimitive(
       );
     for (const name of ["POSITION", "NORMAL"])
       if (!attributes.has(name)) attributes.fail(name, "is missing, and transfer stands on it");
-    for (const needs of ["grid", "biScale"])
-      if (transfer.has(needs) && !attributes.has("TEXCOORD_0"))
-        attributes.fail("TEXCOORD_0", `is missing, and ${needs} is looked up with it`);
+    for (const needs of ["grid", "biScale"]) {
+      if (!transfer.has(needs)) continue;
+      const uvs = texCoordOf(transfer, needs) === 1 ? "TEXCOORD_1" : "TEXCOORD_0";
+      if (!attributes.has(uvs))
+        attributes.fail(uvs, `is missing, and ${needs} is looked up with it`);
+    }
   }
   if (!attributes?.has("POSITION") || mode === 0 || mode === 1 || mode === 2 || mode === 3)
     return null;
   let vertices = 0;
   let normals: Float32Array | null = null;
-  for (const name of ["POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"] as const) {
-    if (!attributes.has(name)) continue;
+  // A second set of texture coordinates is none of this reader's unless a grid lies on it.
+  const second = transfer !== null && texCoordOf(transfer, "grid") === 1;
+  for (const name of ["POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"] as const) {
+    if (!attributes.has(name) || (name === "TEXCOORD_1" && !second)) continue;
     const { count, width, floats } = await accessors.attribute(attributes, name);
     if (name === "POSITION") vertices = count;
     if (count !== vertices)

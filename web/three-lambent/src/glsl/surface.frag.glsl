@@ -24,6 +24,7 @@ in vec3 barycentric;
 #endif
 
 #if LAMBENT_KIND == 1
+in vec2 texelUv;
 uniform ivec2 grid;
 #if LAMBENT_DIFFUSE
 uniform highp usampler2D diffuseLit;  // bits of floats
@@ -83,7 +84,7 @@ void main() {
 #else
     vec3 diffuse = vec3(0.0);
 #if LAMBENT_KIND == 1
-    Texels texels = texelsAround(point.uv, grid);
+    Texels texels = texelsAround(texelUv, grid);
 #endif
 #if LAMBENT_DIFFUSE
 #if LAMBENT_KIND == 0

@@ -1,7 +1,7 @@
 // A relit surface. Vertices fetch what the transfer pass made for them by their number.
 //
 // Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
-// LAMBENT_UV, LAMBENT_COLOR, LAMBENT_SUN_SHARE, LAMBENT_ALPHA (it may be there in parts alone),
+// LAMBENT_UV, LAMBENT_TEXEL_UV (texels lie by a second set of texture coordinates), LAMBENT_COLOR, LAMBENT_SUN_SHARE, LAMBENT_ALPHA (it may be there in parts alone),
 // LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
 // corners, and vertices know their triangle); where they interpolate it incident_texture.glsl.
 
@@ -12,6 +12,12 @@
 #if LAMBENT_PATCH
 attribute vec3 lambentTangent;
 out vec3 tangent_;
+#endif
+#if LAMBENT_TEXEL_UV
+attribute vec2 uv1;
+#endif
+#if LAMBENT_KIND == 1
+out vec2 texelUv;
 #endif
 #if LAMBENT_FETCH
 attribute uvec3 lambentCorners;
@@ -45,6 +51,11 @@ void main() {
 #endif
   positionU = vec4(position, place.x);
   normalV = vec4(normal, place.y);
+#if LAMBENT_TEXEL_UV
+  texelUv = uv1;
+#elif LAMBENT_KIND == 1
+  texelUv = place;
+#endif
 #if LAMBENT_COLOR
   vertexColor = color.rgb;
 #else

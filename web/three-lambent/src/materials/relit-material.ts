@@ -71,6 +71,8 @@ export interface SurfaceShape {
   map: Texture | null;
   colored: boolean;
   uv: boolean;
+  /** Texels lie by a second set of texture coordinates. */
+  texelUv?: boolean;
 }
 
 /** What of meso-structure decides about its shaders. */
@@ -195,6 +197,7 @@ export function makeSurfaceMaterial(
     FETCH: flag(fetch),
     MAP: flag(map),
     UV: flag(shape.uv),
+    TEXEL_UV: flag(shape.texelUv),
     COLOR: flag(shape.colored),
     ALBEDO_OUTSIDE: flag(shape.albedoOutside),
     SUN: sun,
@@ -239,6 +242,7 @@ export function makePatchMaterial(
 ): RelitMaterial {
   const coefficients = shape.bands ** 2;
   const common = defines({
+    KIND: kSurfaceKind.vertices,
     VERTICES: 1,
     DIFFUSE: 0,
     GLOSSY: 0,
@@ -247,6 +251,7 @@ export function makePatchMaterial(
     ALPHA: 0,
     FETCH: flag(shape.fetch),
     UV: 1,
+    TEXEL_UV: 0,
     COLOR: 0,
     CAPTURED: flag(shape.captured),
     NUMBERS: shape.numbers,
