@@ -193,12 +193,12 @@ export class LambentAsset {
     this.air.set(air, options);
   }
 
-  /** What mirrors show; null: black. */
+  /** What mirrors show behind the asset itself ({@link mirrorSize}); null: black. */
   setEnvironment(environment: Environment | null): void {
     this.environment.set(environment);
   }
 
-  /** What mirrors show: a latitude-longitude map, turned by worldFromEnvironment. */
+  /** The same: a latitude-longitude map, turned by worldFromEnvironment. */
   setEnvironmentTexture(texture: Texture | null, rotation?: QuaternionLike): void {
     this.setEnvironment(texture && { texture, rotation });
   }
