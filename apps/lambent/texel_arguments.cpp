@@ -66,9 +66,9 @@ void TexelArguments::addTo(CLI::App& app) {
                  "Bake a mesh on a grid over its UVs instead of at its vertices; without MESH: "
                  "every mesh with UVs. May be given several times. Of a glTF mesh without a "
                  "texture the second set of UVs is taken, if it has one: that of light maps. "
-                 "'auto': the mesh is laid out anew, whatever UVs it has, as a second set beside "
-                 "them, with texels where shadows want them, to the error of --refine; without "
-                 "MESH: every mesh")
+                 "'auto': the mesh is laid out anew, as a second set beside the UVs that it has, "
+                 "whatever they are, with texels where shadows want them, to the error of --refine "
+                 "('--refine off': as dense everywhere); without MESH: every mesh")
       ->option_text("[MESH=]WxH|auto")
       ->check([](const std::string& text) -> std::string {
         const Result<AskedTexels> asked = parseTexels(text);
