@@ -109,15 +109,6 @@ Result<ChosenTexels> TexelArguments::resolve(scene::Scene& scene, Console& conso
       if (!fits) continue;
       ++found;
       if (taken[m] && every) continue;
-      if (!asked->size && scene::hasBacks(mesh)) {
-        const std::string sides = labelOf(scene, m) + " has two sides, which auto does not lay out";
-        if (!every)
-          return badUsage("--texels " + text + ": " + sides +
-                          ": bake it at its vertices, or its front alone (--sides one)");
-        console.note("texels-two-sides",
-                     sides + ": it is baked at its vertices; --sides one bakes its front alone");
-        continue;
-      }
       taken[m] = true;
       if (asked->size)
         chosen.grids.push_back({m, asked->size->width, asked->size->height});
