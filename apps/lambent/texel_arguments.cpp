@@ -66,9 +66,9 @@ void TexelArguments::addTo(CLI::App& app) {
                  "Bake a mesh on a grid over its UVs instead of at its vertices; without MESH: "
                  "every mesh with UVs. May be given several times. Of a glTF mesh without a "
                  "texture the second set of UVs is taken, if it has one: that of light maps. "
-                 "'auto': the mesh is laid out anew, whatever UVs it has, as a second set beside "
-                 "them, with texels where shadows want them, to the error of --refine; without "
-                 "MESH: every mesh")
+                 "'auto': the mesh is laid out anew, as a second set beside the UVs that it has, "
+                 "whatever they are, with texels where shadows want them, to the error of --refine "
+                 "('--refine off': as dense everywhere); without MESH: every mesh")
       ->option_text("[MESH=]WxH|auto")
       ->check([](const std::string& text) -> std::string {
         const Result<AskedTexels> asked = parseTexels(text);
@@ -109,15 +109,6 @@ Result<ChosenTexels> TexelArguments::resolve(scene::Scene& scene, Console& conso
       if (!fits) continue;
       ++found;
       if (taken[m] && every) continue;
-      if (!asked->size && scene::hasBacks(mesh)) {
-        const std::string sides = labelOf(scene, m) + " has two sides, which auto does not lay out";
-        if (!every)
-          return badUsage("--texels " + text + ": " + sides +
-                          ": bake it at its vertices, or its front alone (--sides one)");
-        console.note("texels-two-sides",
-                     sides + ": it is baked at its vertices; --sides one bakes its front alone");
-        continue;
-      }
       taken[m] = true;
       if (asked->size)
         chosen.grids.push_back({m, asked->size->width, asked->size->height});

@@ -116,7 +116,8 @@ Findings findingsOf(const InterpolationError& error, const scene::Scene& scene,
                meshInWords(scene, error.worstMesh) + ": between its receivers light is off by " +
                size +
                " of what a white surface sends back under an even sky. --refine cuts "
-               "triangles where that is so, --texels bakes a mesh on a grid over its UVs",
+               "triangles where that is so, --texels bakes a mesh on a grid over its UVs, --texels "
+               "auto over a layout made for it",
            static_cast<std::uint64_t>(std::lround(error.beyond * double(error.samples)))}};
 }
 

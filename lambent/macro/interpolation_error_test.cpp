@@ -140,5 +140,30 @@ TEST(InterpolationError, NothingStandsAtVertices) {
   EXPECT_FALSE(error->has_value());
 }
 
+// A ball hides nothing from itself, and a coarse one is not round. Between the corners of a triangle
+// over which normals turn by an angle of φ, light that is interpolated is short by some φ²/6 of it.
+TEST(InterpolationError, NormalsCountWhereTheyAreAskedFor) {
+  for (const int subdivisions : {2, 3}) {
+    const scene::Scene scene = scene::sceneOf(scene::icosphere(1, subdivisions));
+    const auto rays = trace::RayScene::build(scene);
+    const auto receivers = transport::placeReceivers(scene, {}, rays->offset());
+    InterpolationErrorOptions options;
+    const auto rms = [&] {
+      const auto places = placeErrors(scene, *rays, *receivers, {true}, options, {});
+      EXPECT_TRUE(places);
+      double sum = 0.0;
+      for (const PlaceError& place : *places) sum += *place.squared;
+      return std::sqrt(std::max(0.0, sum / double(places->size())));
+    };
+    const double shadows = rms();
+    options.withNormals = true;
+    const double all = rms();
+    EXPECT_LT(shadows, 0.5 * all);
+    const double angle = 1.107 / std::pow(2.0, subdivisions);  // of an edge
+    EXPECT_GT(all, 0.02 * angle * angle);
+    EXPECT_LT(all, angle * angle);
+  }
+}
+
 }  // namespace
 }  // namespace lambent::macro

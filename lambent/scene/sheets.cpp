@@ -62,11 +62,11 @@ std::uint32_t otherSideOf(const Mesh& mesh, std::uint32_t triangle) {
 
 void layOutBacks(Mesh& mesh) {
   assert(hasBacks(mesh));
-  std::vector<float> shift(mesh.uvs.size(), 0.0f);
+  std::vector<Vec2>& uvs = mesh.texelUvs.empty() ? mesh.uvs : mesh.texelUvs;
+  std::vector<float> shift(uvs.size(), 0.0f);
   for (std::size_t t = mesh.triangles.size() / 2; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t]) shift[v] = 0.5f;
-  for (std::size_t v = 0; v < mesh.uvs.size(); ++v)
-    mesh.uvs[v].x() = 0.5f * mesh.uvs[v].x() + shift[v];
+  for (std::size_t v = 0; v < uvs.size(); ++v) uvs[v].x() = 0.5f * uvs[v].x() + shift[v];
 }
 
 }  // namespace lambent::scene

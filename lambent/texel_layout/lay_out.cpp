@@ -13,6 +13,8 @@
 
 #include "lambent/atlas/charted_surface.h"
 #include "lambent/macro/interpolation_error.h"
+#include "lambent/scene/shapes.h"
+#include "lambent/scene/sheets.h"
 #include "lambent/texel_layout/beyond_borders.h"
 
 namespace lambent::texel_layout {
@@ -38,6 +40,8 @@ constexpr double kWorst = 0.125;
 /// A mesh on its way.
 struct Laying {
   std::uint32_t mesh = 0;
+  scene::Mesh source;  ///< what is laid out of it: its front, where it has backs
+  int sides = 1;       ///< that lie beside each other in its grid
   atlas::ChartedSurface charted;
   std::vector<double> densities;  ///< [chart], texels a metre: wanted, and then as packed
   atlas::Atlas packed;
@@ -51,6 +55,7 @@ struct Laying {
     for (std::size_t c = 0; c < at.size(); ++c) sum += charted.charts[c].area * at[c] * at[c];
     return sum;
   }
+  double gridOf(double side) const { return sides * side * side; }  ///< texels
   double sideFor(double texels) const {
     return std::max(double(smallest), margin + std::sqrt(texels / kUsed));
   }
@@ -82,6 +87,20 @@ double meanOf(const std::vector<ChartError>& charts) {
   return std::max(0.0, sum) / std::max(1.0, count);
 }
 
+/// The same beyond the borders of the back, in a grid that is twice as wide.
+std::vector<transport::TexelBeyond> onBothSides(const std::vector<transport::TexelBeyond>& front,
+                                                std::uint32_t size) {
+  std::vector<transport::TexelBeyond> both;
+  for (const auto& [texel, point] : front) {
+    const std::uint32_t there = texel / size * 2 * size + texel % size;
+    both.push_back({there, point});
+    both.push_back({there + size, point});
+    both.back().point.normal = -point.normal;
+    both.back().point.geometricNormal = -point.geometricNormal;
+  }
+  return both;
+}
+
 class Layout {
  public:
   Layout(const scene::Scene& scene, const trace::RayScene& rays, const LayoutOptions& options,
@@ -90,18 +109,26 @@ class Layout {
 
   Result<WithFindings<LaidOutScene>> run(std::span<const std::uint32_t> meshes) {
     for (const std::uint32_t m : meshes) {
-      scene::Mesh bare = scene_.meshes[m];
-      bare.texelUvs.clear();
-      auto charted = atlas::chartedSurface(bare, smoothSurface(bare), kMaximumStretch, progress_);
+      Laying laying;
+      laying.mesh = m;
+      laying.source = scene_.meshes[m];
+      laying.source.texelUvs.clear();
+      if (scene::hasBacks(laying.source)) {
+        laying.sides = 2;
+        laying.source.triangles.resize(laying.source.triangles.size() / 2);
+        scene::dropUnusedVertices(laying.source);
+      }
+      const scene::Mesh& source = laying.source;
+      auto charted =
+          atlas::chartedSurface(source, smoothSurface(source), kMaximumStretch, progress_);
       // Of facets each would be a chart: better a crease in a chart than no room.
       if (charted && double(charted->charts.size()) * kLeastOfChart * double(meshes.size()) >
                          double(options_.budget))
         charted =
-            atlas::chartedSurface(bare, atlas::weldedSurface(bare), kMaximumStretch, progress_);
+            atlas::chartedSurface(source, atlas::weldedSurface(source), kMaximumStretch, progress_);
       if (!charted) return charted.error();
-      Laying& laying = layings_.emplace_back();
-      laying.mesh = m;
       laying.charted = std::move(*charted);
+      layings_.push_back(std::move(laying));
     }
     if (Status s = begin(); !s) return s.error();
     for (int round = 0; options_.error && round < kRounds && !layings_.empty(); ++round) {
@@ -130,18 +157,16 @@ class Layout {
       const auto [low, high] =
           std::minmax_element(laying.densities.begin(), laying.densities.end());
       out.meshes.push_back({laying.mesh, laying.packed.charts, laying.size, *high, *low});
-      out.texels += std::size_t(laying.size) * std::size_t(laying.size);
+      out.texels += std::size_t(laying.gridOf(laying.size));
     }
     return WithFindings<LaidOutScene>{std::move(out), std::move(findings_)};
   }
 
  private:
-  const scene::Mesh& meshOf(const Laying& laying) const { return scene_.meshes[laying.mesh]; }
-
   /// The same density everywhere: coarsely, where the error is asked next.
   Status begin() {
     double area = 0.0;
-    for (const Laying& laying : layings_) area += laying.charted.surface.area;
+    for (const Laying& laying : layings_) area += laying.sides * laying.charted.surface.area;
     const double budget = double(options_.budget) * (options_.error ? kCoarse : 1.0);
     const double density = std::sqrt(kUsed * budget / area);
     for (Laying& laying : layings_)
@@ -156,8 +181,8 @@ class Layout {
   Result<bool> packOne(Laying& laying, int size) {
     for (size = std::clamp(size, laying.smallest, kLargest);;
          size = std::min(kLargest, size + std::max(1, size / 4))) {
-      if (double(size) * size > double(options_.budget)) return false;
-      auto packed = atlas::packedAtlas(meshOf(laying), laying.charted, laying.densities,
+      if (laying.gridOf(size) > double(options_.budget)) return false;
+      auto packed = atlas::packedAtlas(laying.source, laying.charted, laying.densities,
                                        {size, options_.gutter}, progress_);
       if (packed) {
         laying.packed = std::move(*packed), laying.size = size;
@@ -175,7 +200,7 @@ class Layout {
   double shareWithin(double budget) const {
     const auto total = [&](double share) {
       double sum = 0.0;
-      for (const Laying& l : layings_) sum += std::pow(std::floor(sideOf(l, share)), 2);
+      for (const Laying& l : layings_) sum += l.gridOf(std::floor(sideOf(l, share)));
       return sum;
     };
     if (total(1.0) <= budget) return 1.0;
@@ -188,7 +213,7 @@ class Layout {
   }
   double packedTexels() const {
     double sum = 0.0;
-    for (const Laying& l : layings_) sum += double(l.size) * l.size;
+    for (const Laying& l : layings_) sum += l.gridOf(l.size);
     return sum;
   }
 
@@ -233,7 +258,7 @@ class Layout {
 
   void leaveOut(std::size_t laying) {
     const Laying& left = layings_[laying];
-    const std::string& name = meshOf(left).name;
+    const std::string& name = left.source.name;
     findings_.push_back(
         {Severity::Note, "texels-no-room",
          (name.empty() ? "mesh " + std::to_string(left.mesh) : "mesh \"" + name + "\"") + " has " +
@@ -268,7 +293,7 @@ class Layout {
     std::pair<scene::Scene, std::vector<transport::TexelGrid>> out;
     out.first = scene_;
     for (const Laying& l : layings_) {
-      const scene::Mesh& from = meshOf(l);
+      const scene::Mesh& from = l.source;
       scene::Mesh& to = out.first.meshes[l.mesh];
       to = l.packed.mesh;
       if (!from.uvs.empty()) {
@@ -282,8 +307,13 @@ class Layout {
         to.material = int(out.first.materials.size());
         out.first.materials.push_back(std::move(bare));
       }
-      out.second.push_back(
-          {l.mesh, l.size, l.size, beyondBorders(out.first, l.mesh, l.charted.surface, l.size)});
+      transport::TexelGrid& grid = out.second.emplace_back();
+      grid.mesh = l.mesh, grid.width = l.sides * l.size, grid.height = l.size;
+      grid.beyond = beyondBorders(out.first, l.mesh, l.charted.surface, l.size);
+      if (l.sides == 1) continue;
+      grid.beyond = onBothSides(grid.beyond, static_cast<std::uint32_t>(l.size));
+      to = scene::withBacks(std::move(to));
+      scene::layOutBacks(to);
     }
     return out;
   }
@@ -310,7 +340,8 @@ class Layout {
     if (!places) return places.error();
     for (const macro::PlaceError& place : *places) {
       const std::size_t i = layingOf[place.mesh];
-      const std::uint32_t chart = layings_[i].charted.chartOfTriangle[place.triangle];
+      const auto& chartOf = layings_[i].charted.chartOfTriangle;  // of the front
+      const std::uint32_t chart = chartOf[place.triangle % chartOf.size()];
       if (!place.squared || chart == atlas::kNoTriangle) continue;
       errors[i][chart].add(*place.squared);
     }
@@ -347,7 +378,7 @@ class Layout {
         covered[chart.laying] += chart.area * std::pow(densityAt(chart, factor), 2);
       double sum = 0.0;
       for (std::size_t i = 0; i < layings_.size(); ++i)
-        sum += std::pow(layings_[i].sideFor(covered[i]), 2);
+        sum += layings_[i].gridOf(layings_[i].sideFor(covered[i]));
       return sum;
     };
     double low = 1e-6, high = 1e12;

@@ -53,7 +53,7 @@ struct LaidOutScene {
 };
 
 /// Lays out `meshes`, each once. Charts end where shading normals or colours do not go on. Each mesh
-/// gets a square grid; of each chart the density is chosen by its
+/// gets a square grid, or two beside each other where it has backs; of each chart the density is chosen by its
 /// error: coarse grids first, then, with what they were found to miss, three more rounds in which a
 /// given number of texels is spread so that the squared error over all surfaces is least. Findings:
 /// `texels-no-room`, meshes with so many charts that the budget has no room for them, which are left

@@ -8,6 +8,7 @@
 #include "lambent/atlas/welded_surface.h"
 #include "lambent/scene/diagnose.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/scene/sheets.h"
 #include "lambent/transport/texel_charts.h"
 
 namespace lambent::texel_layout {
@@ -101,6 +102,36 @@ TEST(LayOut, NormalsThatTurnTakeTexels) {
   EXPECT_LT(*laid.error, 0.01);
   EXPECT_GT(laid.meshes[0].coarsest, 6.0);
   EXPECT_LT(laid.meshes[0].finest, 40.0);
+}
+
+// The back of a sheet lies beside its front, and looks the other way.
+TEST(LayOut, BacksLieBesideTheirFronts) {
+  scene::Scene scene = boxOnFloor();
+  scene::Mesh sheet = scene::gridPlane(2, 2, 3, 3);
+  for (Vec2& uv : sheet.uvs) uv *= 5.0f;
+  sheet = scene::rotated(std::move(sheet), Vec3::UnitX(), 0.7f);
+  scene::addTo(scene, scene::translated(scene::withBacks(std::move(sheet)), Vec3(0, 3, 0)), {});
+  LayoutOptions options;
+  options.budget = 8192;
+  const LaidOutScene laid = laidOut(scene, {0, 2}, options);
+  expectSound(laid, options);
+  const scene::Mesh& mesh = laid.scene.meshes[2];
+  EXPECT_TRUE(scene::hasBacks(mesh));
+  const transport::TexelGrid& grid = laid.grids[1];
+  EXPECT_EQ(grid.width, 2 * grid.height);
+  const auto receivers = transport::placeReceivers(laid.scene, {laid.grids, {}}, 1e-5f);
+  ASSERT_TRUE(receivers);
+  const auto& place = receivers->meshes[2];
+  for (int y = 0; y < grid.height; ++y)
+    for (int x = 0; x < grid.height; ++x) {
+      const std::size_t front = std::size_t(y * grid.width + x);
+      const std::size_t back = front + std::size_t(grid.height);
+      ASSERT_EQ(place.covered[front], place.covered[back]);
+      if (!place.covered[front]) continue;
+      const std::uint32_t f = place.receiverOfTexel[front], b = place.receiverOfTexel[back];
+      EXPECT_LT((receivers->positions[f] - receivers->positions[b]).norm(), 1e-4f);
+      EXPECT_LT((receivers->normals[f] + receivers->normals[b]).norm(), 1e-4f);
+    }
 }
 
 // A texture of a mesh without coordinates is not there, before and after.

@@ -127,5 +127,44 @@ TEST(Receivers, DrawingCornersInterpolates) {
   }
 }
 
+TEST(Receivers, ThoseAroundAPointInterpolateIt) {
+  scene::Scene scene = scene::sceneOf(scene::gridPlane(1.0f, 1.0f, 2, 2));
+  scene::Mesh& mesh = scene.meshes[0];
+  for (const Vec2& uv : mesh.uvs) mesh.texelUvs.emplace_back(uv.y(), 1.0f - uv.x());
+  for (const Placement& placement : {Placement(), onGrid({0, 8, 5})}) {
+    const auto receivers = placeReceivers(scene, placement, 0.0f);
+    ASSERT_TRUE(receivers);
+    const ReceiversAround around = receiversAround(scene, *receivers, 0, 1, 0.3f, 0.35f);
+    Vec3 mean = Vec3::Zero();
+    float sum = 0.0f;
+    for (std::size_t k = 0; k < around.count; ++k) {
+      mean += around.weight[k] * receivers->positions[around.receiver[k]];
+      sum += around.weight[k];
+    }
+    EXPECT_NEAR(sum, 1.0f, 1e-6f);
+    EXPECT_LT((mean - scene::surfaceAt(scene, 0, 1, 0.3f, 0.35f).position).norm(), 1e-5f);
+  }
+}
+
+TEST(Receivers, TexelsBesideAChartMayShowWhatLiesBeyond) {
+  scene::Scene scene = scene::sceneOf(scene::gridPlane(1.0f, 1.0f, 1, 1));
+  for (Vec2& uv : scene.meshes[0].uvs) uv = Vec2(0.25f, 0.25f) + 0.5f * uv;
+  scene::SurfacePoint beyond = scene::surfaceAt(scene, 0, 0, 0.2f, 0.2f);
+  beyond.position.x() = 7.0f;
+  TexelGrid grid{0, 8, 8};
+  grid.beyond = {{8 * 4 + 6, beyond}, {8 * 4 + 4, beyond}};  // beside the chart, and in it
+  const auto receivers = placeReceivers(scene, onGrid(grid), 0.0f);
+  ASSERT_TRUE(receivers);
+  const PlacedReceivers::PerMesh& place = receivers->meshes[0];
+  const auto at = [&](std::size_t texel) {
+    return receivers->positions[place.receiverOfTexel[texel]].x();
+  };
+  EXPECT_EQ(at(8 * 4 + 6), 7.0f);
+  EXPECT_EQ(place.covered[8 * 4 + 6], 0);
+  EXPECT_EQ(at(8 * 4 + 7), 7.0f);  // copies the nearest
+  EXPECT_LT(at(8 * 4 + 4), 1.0f);  // has a place of its own
+  EXPECT_EQ(receivers->size(), 4u * 4u + 1u);
+}
+
 }  // namespace
 }  // namespace lambent::transport
