@@ -28,7 +28,7 @@ class GlMirrors {
   /// For the mirrors of `scene`, which must outlive it. `side`: of a face, in texels; half as many,
   /// and so on, where memory does not suffice.
   static Result<GlMirrors> make(const scene::Scene& scene, int side);
-  /// Whether there is a mirror, and anything for it to show.
+  /// Whether there is a mirror, and anything for one to show.
   static bool areIn(const scene::Scene& scene);
 
   std::size_t count() const { return captures_.size(); }

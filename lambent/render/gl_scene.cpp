@@ -143,8 +143,9 @@ Status GlScene::setAir(const std::optional<shade::Air>& air) {
 
 /// Veils are averaged. The Sun is taken by as many points.
 Status GlScene::captureMirrors(const Surroundings& surroundings) {
-  if (!hasMirrors() || !GlMirrors::areIn(asset_->scene)) return Status::ok();
+  if (!hasMirrors()) return Status::ok();
   if (!mirrors_) {
+    if (!GlMirrors::areIn(asset_->scene)) return Status::ok();
     Result<GlMirrors> made =
         GlMirrors::make(asset_->scene, std::min(options_.mirrorSide, options_.largestTexture));
     if (!made) return made.error();

@@ -11,6 +11,7 @@
 #include "lambent/render/shader_sources.h"
 #include "lambent/scene/sheets.h"
 #include "lambent/shade/rtt_pyramid.h"
+#include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/unshadowed.h"
 
 namespace lambent::render {
