@@ -27,7 +27,8 @@ void put(scene::Scene& scene, const Vec3& size, const Vec3& at, const Rgb& albed
   scene::addTo(scene, scene::translated(scene::box(size), at), diffuseMaterial(albedo));
 }
 
-/// Two walls and a floor of large polygons, a table on legs, a chest, a ball, and a mirror on the wall.
+/// Two walls and a floor of large polygons, a table on legs, a chest, a ball, and a mirror on the
+/// wall.
 Shown roomWithMirror() {
   Shown room{"room", {}, lookAt(Vec3(3.4f, 2.1f, 3.6f), Vec3(-0.4f, 0.8f, -0.9f), 44)};
   scene::Scene& scene = room.scene;

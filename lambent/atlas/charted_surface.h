@@ -1,5 +1,5 @@
-// A surface cut into charts, each laid out in the plane: what an atlas is packed of, as often and as
-// finely as one likes.
+// A surface cut into charts, each laid out in the plane: what an atlas is packed of, as often and
+// as finely as one likes.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,9 @@ struct ChartedSurface {
 Result<ChartedSurface> chartedSurface(const scene::Mesh& mesh, WeldedSurface surface,
                                       float maximumStretch, const Progress& progress);
 
-/// The same with charts of different densities, [chart], > 0: texels are that much denser on a chart,
-/// in proportion to others. None: all are as dense. `mesh` is that of the charts. BadUsage if there
-/// is no room; Cancelled.
+/// The same with charts of different densities, [chart], > 0: texels are that much denser on a
+/// chart, in proportion to others. None: all are as dense. `mesh` is that of the charts. BadUsage
+/// if there is no room; Cancelled.
 Result<Atlas> packedAtlas(const scene::Mesh& mesh, const ChartedSurface& charted,
                           std::span<const double> densities, const PackOptions& options,
                           const Progress& progress);

@@ -11,8 +11,8 @@
 // p: read so, the rule looks where the mirrored ray goes. The rays are not cast again: hits are
 // kept in four to six bytes each, and a bounce is a sparse product. A hit takes the light of one
 // corner of the triangle, drawn by its weight (see drawReceiver), instead of blending three: a
-// third of the traffic for an error far below that of the directions. Of a textured surface it takes
-// the irradiance there, and the base colour of the place itself, which the hit keeps beside.
+// third of the traffic for an error far below that of the directions. Of a textured surface it
+// takes the irradiance there, and the base colour of the place itself, which the hit keeps beside.
 #include <algorithm>
 
 #include "lambent/macro/simulation.h"

@@ -10,12 +10,13 @@
 
 namespace lambent::macro {
 
-/// One lattice of directions, turned several ways. If all receivers looked into the same directions,
-/// the borders of what they see would cross those directions in step, and flat walls show a plaid of
-/// them; neighbours that look into different ones show a fine grain of the same size, which the eye
-/// passes over. A receiver's set follows from where it stands in the scene alone, in cells of a power
-/// of two, a 4096th of the scene or less: the same surface has the same ones in whatever sequence its
-/// vertices are and wherever the scene stands, and so do both sides of a seam.
+/// One lattice of directions, turned several ways. If all receivers looked into the same
+/// directions, the borders of what they see would cross those directions in step, and flat walls
+/// show a plaid of them; neighbours that look into different ones show a fine grain of the same
+/// size, which the eye passes over. A receiver's set follows from where it stands in the scene
+/// alone, in cells of a power of two, a 4096th of the scene or less: the same surface has the same
+/// ones in whatever sequence its vertices are and wherever the scene stands, and so do both sides
+/// of a seam.
 class DirectionSets {
  public:
   /// `directions` of each set, ≥ 1; `box` of the scene. As many sets as keep tables of them small.

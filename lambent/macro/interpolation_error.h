@@ -31,9 +31,9 @@ struct InterpolationErrorOptions {
 };
 
 /// The difference between shadows (direct light that is blocked) interpolated over triangles and
-/// simulated inside of them, as radiance of a white surface under skies whose radiance has a root mean square of 1 (sight.h
-/// has the formula). Half of the places lie evenly over all surfaces, the others where something
-/// stands before a surface. Places inside of bodies do not count.
+/// simulated inside of them, as radiance of a white surface under skies whose radiance has a root
+/// mean square of 1 (sight.h has the formula). Half of the places lie evenly over all surfaces, the
+/// others where something stands before a surface. Places inside of bodies do not count.
 struct InterpolationError {
   std::size_t samples = 0;      ///< places that count
   double rms = 0.0;             ///< root mean square over them; the directions' noise is taken out

@@ -140,8 +140,9 @@ TEST(InterpolationError, NothingStandsAtVertices) {
   EXPECT_FALSE(error->has_value());
 }
 
-// A ball hides nothing from itself, and a coarse one is not round. Between the corners of a triangle
-// over which normals turn by an angle of φ, light that is interpolated is short by some φ²/6 of it.
+// A ball hides nothing from itself, and a coarse one is not round. Between the corners of a
+// triangle over which normals turn by an angle of φ, light that is interpolated is short by some
+// φ²/6 of it.
 TEST(InterpolationError, NormalsCountWhereTheyAreAskedFor) {
   for (const int subdivisions : {2, 3}) {
     const scene::Scene scene = scene::sceneOf(scene::icosphere(1, subdivisions));

@@ -1,7 +1,7 @@
 // Private to this room: what points see of the sky, coarsely, and how far what is interpolated
-// between three points is from what a point between them sees. Between vertices light that is blocked
-// is compared, and not light that arrives: how normals turn between the corners of a smooth surface
-// is no shadow.
+// between three points is from what a point between them sees. Between vertices light that is
+// blocked is compared, and not light that arrives: how normals turn between the corners of a smooth
+// surface is no shadow.
 //
 // Radiance here is that of a white surface, of direct light. As a measure of a difference of two
 // transfer vectors serves the radiance that it makes under skies of n bands whose radiance has a
@@ -46,8 +46,8 @@ struct Corners {
 /// is for nobody to see. As they are where all are buried.
 Corners exposed(const Corners& corners);
 
-/// What is compared: light that is blocked, which tells of shadows alone, or light that arrives, which
-/// also tells how normals turn.
+/// What is compared: light that is blocked, which tells of shadows alone, or light that arrives,
+/// which also tells how normals turn.
 enum class Compared { Blocked, Arriving };
 
 /// Where rays start and which way is up.
@@ -69,9 +69,10 @@ class SightTest {
   Sight at(const Spot& spot, Scratch& scratch) const;
 
   /// An estimate of e² (above) between what is hidden from `here` (or not hidden) and what is
-  /// interpolated of its corners, over directions above the plane of its triangle: those below meet the triangle itself. Without bias, were it below 0: it is a product of what two independent sets of
-  /// directions say, which have the difference in common and not the noise. Where all see the
-  /// same it is exactly 0.
+  /// interpolated of its corners, over directions above the plane of its triangle: those below meet
+  /// the triangle itself. Without bias, were it below 0: it is a product of what two independent
+  /// sets of directions say, which have the difference in common and not the noise. Where all see
+  /// the same it is exactly 0.
   double squaredError(const Sight& here, const Corners& corners, const Vec3& planeNormal,
                       Scratch& scratch, Compared compared = Compared::Blocked) const;
 

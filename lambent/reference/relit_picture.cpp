@@ -1,12 +1,12 @@
 // A picture by one ray for each sub-sample. What is interpolated is what sloan2002precomputed §6
 // interpolates on the GPU: over a triangle (or between texels) the exit radiance of a diffuse
 // surface, and the lobe-convolved coefficients of transferred radiance of a glossy one, which are
-// evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows what the
-// mirrored ray meets, lit as anything that is seen, and the environment where that leaves; mirrors
-// show mirrors, a few in a row. With meso-structure it is the light that
-// arrives at it that is interpolated, and B(q, v) that is looked up (sloan2003biscale §5). Under a
-// sharp Sun each sub-sample asks by one ray whether its own point of the Sun's disc is seen: rays
-// start where those of the path tracer do, and are blocked by fronts and backs alike.
+// evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows what
+// the mirrored ray meets, lit as anything that is seen, and the environment where that leaves;
+// mirrors show mirrors, a few in a row. With meso-structure it is the light that arrives at it that
+// is interpolated, and B(q, v) that is looked up (sloan2003biscale §5). Under a sharp Sun each
+// sub-sample asks by one ray whether its own point of the Sun's disc is seen: rays start where
+// those of the path tracer do, and are blocked by fronts and backs alike.
 
 #include "lambent/reference/relit_picture.h"
 

@@ -80,8 +80,8 @@ TEST(RelitPicture, InterpolatesTexelsTheRightWayRound) {
           << x << ", " << y;
 }
 
-// Texels on a second set of texture coordinates: what the first one does is nothing to them, and what
-// the second one does is nothing to the base colour.
+// Texels on a second set of texture coordinates: what the first one does is nothing to them, and
+// what the second one does is nothing to the base colour.
 TEST(RelitPicture, TexelsMayLieOnCoordinatesOfTheirOwn) {
   asset::Asset first;
   test::addTexels(first, test::floor(Vec3::Zero(), 1.0f), Vec3::UnitY(), 16, 11, 0,
@@ -116,8 +116,8 @@ TEST(RelitPicture, MirrorShowsTheEnvironment) {
   EXPECT_TRUE(image->at(16, 16).isApprox(seen, 0.02f));
 }
 
-// Behind a plane mirror stands the same scene turned over: what a camera sees there is what the camera
-// turned over sees of the scene itself.
+// Behind a plane mirror stands the same scene turned over: what a camera sees there is what the
+// camera turned over sees of the scene itself.
 TEST(RelitPicture, PlaneMirrorShowsTheSceneTurnedOver) {
   asset::Asset asset;
   test::addMirror(asset, test::floor(Vec3::Zero(), 20.0f), Rgb::Constant(0.5f));

@@ -46,7 +46,8 @@ double solidAngleAround(const scene::Mesh& mesh, const Vec3& place) {
   return sum;
 }
 
-/// Whether a place is inside of a body that is not the mirror itself: nothing but its back would be seen.
+/// Whether a place is inside of a body that is not the mirror itself: nothing but its back would be
+/// seen.
 bool isBuried(const scene::Scene& scene, std::uint32_t mirror, const Vec3& place) {
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     if (m == mirror) continue;
@@ -58,8 +59,8 @@ bool isBuried(const scene::Scene& scene, std::uint32_t mirror, const Vec3& place
   return false;
 }
 
-/// The middle of a mirror's box or, where something stands there that the mirror goes around, a place
-/// before the mirror.
+/// The middle of a mirror's box or, where something stands there that the mirror goes around, a
+/// place before the mirror.
 Vec3 placeAt(const scene::Scene& scene, std::uint32_t mirror) {
   const scene::Mesh& mesh = scene.meshes[mirror];
   const scene::Box box = boxOf(mesh);
@@ -81,8 +82,8 @@ float farthest(const scene::Box& box, const Vec3& from) {
 }  // namespace
 
 std::string localCaptureSource() {
-  // A quarter of what the page takes: borders of things may lie as much too far in. By how much differs
-  // from pixel to pixel, and from one sub-sample to the next.
+  // A quarter of what the page takes: borders of things may lie as much too far in. By how much
+  // differs from pixel to pixel, and from one sub-sample to the next.
   return "#define LAMBENT_CAPTURE_STEP 0.02\n"
          "float capturePhase();\n"
          "#define LAMBENT_CAPTURE_PHASE capturePhase()\n" +

@@ -1,6 +1,6 @@
-// What mirrors show of the asset they belong to (shaders/local_capture.glsl): cube maps of all other
-// surfaces as they are lit, each drawn from a place at one mirror. Nothing in them depends on the
-// viewer.
+// What mirrors show of the asset they belong to (shaders/local_capture.glsl): cube maps of all
+// other surfaces as they are lit, each drawn from a place at one mirror. Nothing in them depends on
+// the viewer.
 #pragma once
 
 #include <array>
@@ -39,9 +39,9 @@ class GlMirrors {
 
   /// Until they are drawn anew, mirrors show the environment alone.
   void forget();
-  /// Draws sub-sample number view.sample of all maps, calling drawFace(view) for every face. Of `view`
-  /// the Sun, the environment's frame and that number are taken. Leaves another framebuffer, viewport
-  /// and program than before.
+  /// Draws sub-sample number view.sample of all maps, calling drawFace(view) for every face. Of
+  /// `view` the Sun, the environment's frame and that number are taken. Leaves another framebuffer,
+  /// viewport and program than before.
   template <class DrawFace>
   void draw(const GlView& view, const GlEnvironment& environment, DrawFace drawFace) {
     for (Capture& capture : captures_) {
@@ -54,7 +54,8 @@ class GlMirrors {
       capture.drawn = true;
     }
   }
-  /// For the program of a mirror that draws a mesh next, in a frame that is sub-sample number `sample`.
+  /// For the program of a mirror that draws a mesh next, in a frame that is sub-sample number
+  /// `sample`.
   void bind(const Program& program, std::uint32_t mesh, int sample) const;
   /// The same without any map.
   static void bindNone(const Program& program);

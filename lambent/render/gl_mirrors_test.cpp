@@ -144,8 +144,8 @@ TEST(GlMirrors, ABox) {
   }
 }
 
-// What one mirror shows of another is as it is seen from its middle: highlights lie beside where rays
-// have them.
+// What one mirror shows of another is as it is seen from its middle: highlights lie beside where
+// rays have them.
 TEST(GlMirrors, ShowEachOther) {
   asset::Asset asset;
   shade::test::addMirror(asset, shade::test::sphere(Vec3(-0.8f, 0, 0), 0.7f, 48), kSilver);

@@ -46,10 +46,11 @@ class GlScene {
   /// is due.
   Status choose(const shade::Showing& showing);
   void setLight(const sh::RgbCoefficients& light) { transfer_.setLight(light); }
-  /// What a sharp Sun is of the light that is set (none: there is no such). The first one uploads what
-  /// it needs; if that fails, all stays as it was. Then relight() is due.
+  /// What a sharp Sun is of the light that is set (none: there is no such). The first one uploads
+  /// what it needs; if that fails, all stays as it was. Then relight() is due.
   Status setSunShare(const std::optional<sh::RgbCoefficients>& share);
-  /// The air before all of it (none: there is none). If making what it needs fails, all stays as it was.
+  /// The air before all of it (none: there is none). If making what it needs fails, all stays as it
+  /// was.
   Status setAir(const std::optional<shade::Air>& air);
   /// What a frame of it is to be added up with: its air is looked through there.
   GlTarget::Around around() const { return {nullptr, air_.get(), sunMap_ ? &*sunMap_ : nullptr}; }
@@ -66,16 +67,16 @@ class GlScene {
     std::optional<light::Sun> sun = {};  ///< whose shadows are sharp
     int veilSamples = 4;  ///< sub-samples of what mirrors show, where there are veils
   };
-  /// Draws what mirrors show of the asset, if anything of it has changed since it was drawn, and binds
-  /// other framebuffers for that: before mapSun(). The first time it makes what it needs.
+  /// Draws what mirrors show of the asset, if anything of it has changed since it was drawn, and
+  /// binds other framebuffers for that: before mapSun(). The first time it makes what it needs.
   Status captureMirrors(const Surroundings& surroundings);
   /// The environment is another.
   void environmentChanged() { environmentStale_ = true; }
   /// Draws what hides view.sun, if there is one, and binds another framebuffer for that: before the
   /// frame that is drawn so.
   Status mapSun(const GlView& view);
-  /// Draws all surfaces into the bound framebuffer: as GlSurfaces::draw. Mirrors show what was captured
-  /// and, where that is nothing, `environment`.
+  /// Draws all surfaces into the bound framebuffer: as GlSurfaces::draw. Mirrors show what was
+  /// captured and, where that is nothing, `environment`.
   void draw(const GlView& view, const GlEnvironment& environment) const;
 
  private:

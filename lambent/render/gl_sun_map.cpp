@@ -1,5 +1,5 @@
-// The map covers what is seen alone: the box, seen from the Sun, of the view's frustum, where that is
-// smaller than that of the scene. So a picture from nearby has finer shadows. Towards the Sun it
+// The map covers what is seen alone: the box, seen from the Sun, of the view's frustum, where that
+// is smaller than that of the scene. So a picture from nearby has finer shadows. Towards the Sun it
 // reaches as far as the scene does: whatever stands there throws its shadow in.
 #include "lambent/render/gl_sun_map.h"
 

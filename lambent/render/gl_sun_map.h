@@ -1,6 +1,6 @@
 // What hides a point of the Sun from a scene: a map of depths, drawn anew for every sub-sample of a
-// picture, each for its own point of the disc. So penumbrae come of the disc itself, as wide as they
-// are, and the borders of shadows are as smooth as those of surfaces are.
+// picture, each for its own point of the disc. So penumbrae come of the disc itself, as wide as
+// they are, and the borders of shadows are as smooth as those of surfaces are.
 #pragma once
 
 #include "lambent/light/sun.h"
@@ -17,10 +17,11 @@ class GlSunMap {
 
   static Result<GlSunMap> make(int largestTexture);
 
-  /// Draws the map of what stands in `bounds`, as the point of the Sun `sun` looks at it: of what is
-  /// seen through `clipFromWorld`, or of all of it (null). drawPieces() draws everything, with vertices as unlit.vert.glsl has them; what is there in
-  /// parts alone with gapsProgram(), whose coverage it binds, the rest with wholeProgram(). Leaves another
-  /// framebuffer, viewport, depth test and program than before.
+  /// Draws the map of what stands in `bounds`, as the point of the Sun `sun` looks at it: of what
+  /// is seen through `clipFromWorld`, or of all of it (null). drawPieces() draws everything, with
+  /// vertices as unlit.vert.glsl has them; what is there in parts alone with gapsProgram(), whose
+  /// coverage it binds, the rest with wholeProgram(). Leaves another framebuffer, viewport, depth
+  /// test and program than before.
   template <class DrawPieces>
   void draw(const light::SunPoint& sun, const Mat4* clipFromWorld, const scene::Box& bounds,
             DrawPieces drawPieces) {

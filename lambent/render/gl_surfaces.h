@@ -44,8 +44,8 @@ class GlSurfaces {
   };
   /// The light of all pieces under other transfer, to be given to setLight.
   Result<std::vector<Lit>> lightUnder(const shade::Showing& showing, TransferOnGpu& transfer) const;
-  /// Other air; null for none. Makes programs where there was none before; if that fails, all stays as
-  /// it was.
+  /// Other air; null for none. Makes programs where there was none before; if that fails, all stays
+  /// as it was.
   Status setAir(std::shared_ptr<const GlAir> air);
   /// Whether what is lit from now on is lit by a sharp Sun, whose own light the caller draws.
   void setSharpSun(bool sharp) { sharpSun_ = sharp; }
@@ -67,8 +67,8 @@ class GlSurfaces {
     const GlMirrors* mirrors = nullptr;  ///< what else they show; null: nothing
     const GlSunMap* sunMap = nullptr;    ///< where view.sun is hidden; null: nowhere
   };
-  /// Draws them into the bound framebuffer: radiance, and in alpha what sample_alpha.glsl says. A vertex array must be bound;
-  /// its element buffer is changed.
+  /// Draws them into the bound framebuffer: radiance, and in alpha what sample_alpha.glsl says. A
+  /// vertex array must be bound; its element buffer is changed.
   void draw(const GlView& view, const Around& around, const GlBaseColors& colors,
             const shade::Showing& showing, GLuint vertexArray) const;
   /// Calls drawPiece(mesh, vertices, corners, count) for every piece, as GlPatches::drawUnlit.

@@ -30,18 +30,19 @@ struct LiveView {
 };
 
 /// Works in the OpenGL 4.5 context that is current when it is made (a window's, or a GlContext),
-/// which must be current in every call and outlive it. Movable. Mirrors show the asset and, between,
-/// the environment; what they show of it is drawn anew in the first frame after the light, the Sun, the
-/// air or the choice of what is shown has changed (where mirrors show mirrors or veils, the environment
-/// too), which costs about as much as six frames of 512×512 for each of them. Nothing that happens once a frame
-/// costs CPU time that grows with the asset. Leaves GL's state as it was, but for what is bound to
-/// texture units, image units and indexed storage buffers.
+/// which must be current in every call and outlive it. Movable. Mirrors show the asset and,
+/// between, the environment; what they show of it is drawn anew in the first frame after the light,
+/// the Sun, the air or the choice of what is shown has changed (where mirrors show mirrors or
+/// veils, the environment too), which costs about as much as six frames of 512×512 for each of
+/// them. Nothing that happens once a frame costs CPU time that grows with the asset. Leaves GL's
+/// state as it was, but for what is bound to texture units, image units and indexed storage
+/// buffers.
 class LiveRenderer {
  public:
   /// Checks and uploads everything. `asset` must outlive it. Black until there is a light.
   static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing);
-  /// The same with storage buffers of `largestBlock` bytes at most, and 128 texels to a side of what
-  /// mirrors show, for tests.
+  /// The same with storage buffers of `largestBlock` bytes at most, and 128 texels to a side of
+  /// what mirrors show, for tests.
   static Result<LiveRenderer> make(const asset::Asset& asset, const shade::Showing& showing,
                                    std::size_t largestBlock);
   LiveRenderer(LiveRenderer&&) noexcept;
@@ -59,11 +60,11 @@ class LiveRenderer {
   /// One light for the whole asset, in the asset's own frame: sh::rotate(assetFromWorld, …).
   void setLight(const sh::RgbCoefficients& assetLight);
   /// The Sun of setLight's light whose shadows are to be sharp (none: all of it is soft), in the
-  /// asset's frame. The first one uploads what it needs; others cost next to nothing: it can move in
-  /// every frame. A map of what it leaves dark is drawn with each. A light field knows none.
+  /// asset's frame. The first one uploads what it needs; others cost next to nothing: it can move
+  /// in every frame. A map of what it leaves dark is drawn with each. A light field knows none.
   Status setSun(const std::optional<shade::SharpSun>& sun);
-  /// The air between a perspective camera and all that the asset shows (none: there is none), in the
-  /// asset's frame; what others draw is not behind it. The first one, and the first one with or
+  /// The air between a perspective camera and all that the asset shows (none: there is none), in
+  /// the asset's frame; what others draw is not behind it. The first one, and the first one with or
   /// without shafts of light, makes programs; another table of as many nodes is uploaded, and the
   /// rest costs next to nothing. Without a Sun (setSun) there are no shafts.
   Status setAir(const std::optional<shade::Air>& air);

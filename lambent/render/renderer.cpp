@@ -37,7 +37,8 @@ struct Renderer::Impl {
                                const light::Environment& environment,
                                const shade::PictureOptions& options, GlSceneOptions sceneOptions);
 
-  /// One frame, sub-sample number `sample`, seen through `place` of every pixel, under a point of the sharp Sun, if there is one.
+  /// One frame, sub-sample number `sample`, seen through `place` of every pixel, under a point of
+  /// the sharp Sun, if there is one.
   Result<GlView> draw(const scene::Camera& camera, int sample, const Vec2& place,
                       const light::SunPoint* sun) {
     GlView view =

@@ -24,8 +24,8 @@ class Renderer {
   static Result<Renderer> make(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                const light::Environment& environment,
                                const shade::PictureOptions& options);
-  /// The same with storage buffers of `largestBlock` bytes at most, and 128 texels to a side of what
-  /// mirrors show, for tests.
+  /// The same with storage buffers of `largestBlock` bytes at most, and 128 texels to a side of
+  /// what mirrors show, for tests.
   static Result<Renderer> make(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                const light::Environment& environment,
                                const shade::PictureOptions& options, std::size_t largestBlock);

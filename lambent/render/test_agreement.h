@@ -29,7 +29,8 @@ struct Agreement {
   std::size_t largestBlock = std::size_t(1) << 40;  ///< bytes of storage buffers
   double mean = 0.05;
   double interior = 0.05;  ///< the 99th percentile of what lies wholly on surfaces
-  /// Pixels that show mirrors, if any: what these show of the asset is captured, and is not as exact.
+  /// Pixels that show mirrors, if any: what these show of the asset is captured, and is not as
+  /// exact.
   std::vector<bool> mirrors = {};
   double inMirrors = 4;  ///< the mean there; both others are of what remains
 };
@@ -56,7 +57,8 @@ std::vector<bool> mirrorsIn(const asset::Asset& asset, const scene::Camera& came
                             const shade::PictureOptions& options);
 
 /// Makes both pictures under test::sky() and expects them to agree, in coverage too, and not to be
-/// black; mirrors are found out. LAMBENT_TEST_PICTURES=DIR in the environment: where to leave them to look at.
+/// black; mirrors are found out. LAMBENT_TEST_PICTURES=DIR in the environment: where to leave them
+/// to look at.
 void expectAgreement(const std::string& name, const asset::Asset& asset,
                      const scene::Camera& camera, const shade::PictureOptions& options,
                      const Agreement& agreement = {});

@@ -67,8 +67,8 @@ Facets facetsOf(const Mesh& mesh) {
 }
 
 /// Corners that share a normal: of one place, and of triangles that hang together across edges
-/// which bend by less than `angle`. Triangles without area bend nowhere. Corner c is corner c % 3 of
-/// triangle c / 3.
+/// which bend by less than `angle`. Triangles without area bend nowhere. Corner c is corner c % 3
+/// of triangle c / 3.
 math::UnionFind groupCorners(const Mesh& mesh, const Facets& facets, double angle) {
   const double least = std::cos(std::min(std::max(angle, kFlat), 3.14159265358979));
   const std::vector<Edge> edges = edgesOf(mesh, weldPositions(mesh));

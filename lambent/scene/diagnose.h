@@ -26,10 +26,11 @@ struct Topology {
 };
 Topology topology(const Mesh& mesh);
 
-/// Whether every texel of a width×height grid over the mesh's texel UVs (texelUvsOf) belongs to one triangle at most.
-/// Triangles that share an edge do not overlap: a texel counts where its centre lies more than 1/64
-/// texel inside two triangles. BadInput if UVs are missing, outside [0, 1], cover no texel (hold no
-/// centre by visitTexels of texel_map.h, borders included), or overlap; the message names two triangles, the number of texels and the remedy.
+/// Whether every texel of a width×height grid over the mesh's texel UVs (texelUvsOf) belongs to one
+/// triangle at most. Triangles that share an edge do not overlap: a texel counts where its centre
+/// lies more than 1/64 texel inside two triangles. BadInput if UVs are missing, outside [0, 1],
+/// cover no texel (hold no centre by visitTexels of texel_map.h, borders included), or overlap; the
+/// message names two triangles, the number of texels and the remedy.
 Status checkUvs(const Mesh& mesh, int width, int height);
 
 }  // namespace lambent::scene

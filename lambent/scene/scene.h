@@ -14,7 +14,8 @@
 
 namespace lambent::scene {
 
-/// What becomes of the alpha of a surface: of its texture, its vertices and its material multiplied.
+/// What becomes of the alpha of a surface: of its texture, its vertices and its material
+/// multiplied.
 enum class AlphaMode {
   Opaque,  ///< nothing
   Mask,    ///< where it is below a threshold there is a hole

@@ -93,8 +93,8 @@ void cut(const Triangle& corners, bool second, bool third, Middles& middles,
   }
 }
 
-/// Appends the backs of triangles that are the pieces of `fronts` of a mesh. `other`: for each of its
-/// vertices the one of the other side.
+/// Appends the backs of triangles that are the pieces of `fronts` of a mesh. `other`: for each of
+/// its vertices the one of the other side.
 void turnOver(std::size_t fronts, std::vector<std::uint32_t>& other, Middles& middles,
               std::vector<Triangle>& triangles, std::vector<std::uint32_t>& parents) {
   const std::size_t pieces = triangles.size(), made = middles.count();

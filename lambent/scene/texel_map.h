@@ -16,8 +16,8 @@ inline constexpr std::uint32_t kNobody = 0xffffffffu;
 
 /// visit(x, y, u, v) for every texel of a width×height grid whose centre a triangle holds, its
 /// border included; there the corners weigh (1−u−v, u, v), as doubles. The one rule of what a texel
-/// shows: a centre on an edge is held by both triangles that share it. Triangles without area in the
-/// square hold none. `mesh` has UVs; what lies outside of the unit square is not seen.
+/// shows: a centre on an edge is held by both triangles that share it. Triangles without area in
+/// the square hold none. `mesh` has UVs; what lies outside of the unit square is not seen.
 template <class Visit>
 void visitTexels(const Mesh& mesh, const Triangle& triangle, int width, int height,
                  const Visit& visit) {

@@ -9,8 +9,8 @@
 namespace lambent::scene {
 namespace {
 
-/// How far inside a triangle, in texels, a centre must lie to be claimed by it alone: triangles that
-/// share an edge do not overlap, however it was rounded.
+/// How far inside a triangle, in texels, a centre must lie to be claimed by it alone: triangles
+/// that share an edge do not overlap, however it was rounded.
 constexpr double kInside = 1.0 / 64.0;
 
 /// How far inside its triangle the place with these barycentric coordinates lies, in texels.

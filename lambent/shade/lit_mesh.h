@@ -44,8 +44,8 @@ struct LitMesh {
 
 LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
                   const sh::RgbCoefficients& light, std::optional<float> lobeExponent);
-/// A bare surface as `showing` has it, or black. Under a sharp Sun without what falls from it on the
-/// diffuse surface directly: that is the caller's to add (sharp_sun.h).
+/// A bare surface as `showing` has it, or black. Under a sharp Sun without what falls from it on
+/// the diffuse surface directly: that is the caller's to add (sharp_sun.h).
 LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
                      const sh::RgbCoefficients& light, const Showing& showing,
                      const std::optional<SharpSun>& sun);
@@ -58,8 +58,8 @@ inline Vec3 mirrored(const Vec3& v, const Vec3& normal) {
   return 2.0f * normal.dot(v) * normal - v;
 }
 
-/// Base colour (texture × vertex colour, without the material's factors) at every receiver of a mesh;
-/// empty if it is white everywhere.
+/// Base colour (texture × vertex colour, without the material's factors) at every receiver of a
+/// mesh; empty if it is white everywhere.
 std::vector<Rgb> receiverBaseColors(const scene::Scene& scene, std::uint32_t mesh,
                                     const transfer::Receivers& receivers);
 

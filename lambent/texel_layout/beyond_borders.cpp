@@ -146,8 +146,8 @@ class Beyond {
     return a + (square > 0.0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0) * along;
   }
 
-  /// Weights of the corners for a place in the square, which may lie outside; nothing for a triangle
-  /// without area there.
+  /// Weights of the corners for a place in the square, which may lie outside; nothing for a
+  /// triangle without area there.
   std::optional<Vec3d> weightsAt(std::uint32_t t, const Vec2d& p) const {
     const Vec2d a = uvOf(t, 0), e = uvOf(t, 1) - a, f = uvOf(t, 2) - a;
     const double area = cross(e, f);
@@ -184,8 +184,8 @@ class Beyond {
     return (to - to.dot(along) * along).normalized();
   }
 
-  /// Leaves t across edge k at `from` by `way`, a vector in the plane of t, and goes straight on over
-  /// the surface.
+  /// Leaves t across edge k at `from` by `way`, a vector in the plane of t, and goes straight on
+  /// over the surface.
   Place walk(std::uint32_t t, int k, Vec3d from, Vec3d way) const {
     Place here{t, weightsOf(t, from)};
     for (int step = 0; step < kMostSteps; ++step) {

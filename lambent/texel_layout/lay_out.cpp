@@ -1,7 +1,7 @@
-// How texels are spread. Where the mean squared error of a chart is k d⁻ᵖ at a density of d texels a
-// metre, the sum of error times area over all charts is least, for a given number of texels, where
-// d ∝ k^(1/(p+2)). The error of a step in the light falls with p = 1, that of a curve with p = 4;
-// penumbras lie between them, and rounds are few: p = 2.
+// How texels are spread. Where the mean squared error of a chart is k d⁻ᵖ at a density of d texels
+// a metre, the sum of error times area over all charts is least, for a given number of texels,
+// where d ∝ k^(1/(p+2)). The error of a step in the light falls with p = 1, that of a curve with p
+// = 4; penumbras lie between them, and rounds are few: p = 2.
 #include "lambent/texel_layout/lay_out.h"
 
 #include <algorithm>
@@ -176,8 +176,8 @@ class Layout {
     return packAll(budget);
   }
 
-  /// Packs `laying` on a grid of that side, or of the next larger one that has room. False if the whole
-  /// budget has none.
+  /// Packs `laying` on a grid of that side, or of the next larger one that has room. False if the
+  /// whole budget has none.
   Result<bool> packOne(Laying& laying, int size) {
     for (size = std::clamp(size, laying.smallest, kLargest);;
          size = std::min(kLargest, size + std::max(1, size / 4))) {
@@ -217,9 +217,9 @@ class Layout {
     return sum;
   }
 
-  /// Packs all on grids as large as densities want, within `budget`; larger only where gutters leave no
-  /// choice, and within the whole budget always: what has no room there is left out. Densities
-  /// become what came of it.
+  /// Packs all on grids as large as densities want, within `budget`; larger only where gutters
+  /// leave no choice, and within the whole budget always: what has no room there is left out.
+  /// Densities become what came of it.
   Status packAll(double budget) {
     for (int attempt = 0, again = 0; !layings_.empty();) {
       std::vector<std::vector<double>> wanted;

@@ -19,10 +19,9 @@ namespace lambent::texel_layout {
 
 struct LayoutOptions {
   std::size_t budget = 65536;  ///< texels of all grids together, gutters and all
-  /// How far interpolated light may be off, shadows and how normals turn, as macro::placeErrors counts
-  /// it: charts get texels
-  /// until its root mean square over the eighth of their places where it is largest is below this.
-  /// None: texels are as dense everywhere.
+  /// How far interpolated light may be off, shadows and how normals turn, as macro::placeErrors
+  /// counts it: charts get texels until its root mean square over the eighth of their places where
+  /// it is largest is below this. None: texels are as dense everywhere.
   std::optional<double> error = 0.01;
   int gutter = 2;  ///< texels between charts, ≥ 2: bilinear look-ups mix none
   std::uint64_t seed = 0;
@@ -39,8 +38,9 @@ struct MeshLayout {
 };
 
 struct LaidOutScene {
-  /// With the layout as texel UVs of the meshes, beside the texture coordinates that they have, or as
-  /// these where they have none; vertices are cut where charts meet. All triangles keep their sequence and place: what was hit by rays is what it was.
+  /// With the layout as texel UVs of the meshes, beside the texture coordinates that they have, or
+  /// as these where they have none; vertices are cut where charts meet. All triangles keep their
+  /// sequence and place: what was hit by rays is what it was.
   scene::Scene scene;
   std::vector<transport::TexelGrid> grids;
   std::vector<MeshLayout> meshes;
@@ -52,13 +52,13 @@ struct LaidOutScene {
   bool spent = false;           ///< the budget ended it, and not the error
 };
 
-/// Lays out `meshes`, each once. Charts end where shading normals or colours do not go on. Each mesh
-/// gets a square grid, or two beside each other where it has backs; of each chart the density is chosen by its
-/// error: coarse grids first, then, with what they were found to miss, three more rounds in which a
-/// given number of texels is spread so that the squared error over all surfaces is least. Findings:
-/// `texels-no-room`, meshes with so many charts that the budget has no room for them, which are left
-/// as they are. `rays` are the scene's. BadInput for meshes without area; BadUsage for options out
-/// of range; Cancelled.
+/// Lays out `meshes`, each once. Charts end where shading normals or colours do not go on. Each
+/// mesh gets a square grid, or two beside each other where it has backs; of each chart the density
+/// is chosen by its error: coarse grids first, then, with what they were found to miss, three more
+/// rounds in which a given number of texels is spread so that the squared error over all surfaces
+/// is least. Findings: `texels-no-room`, meshes with so many charts that the budget has no room for
+/// them, which are left as they are. `rays` are the scene's. BadInput for meshes without area;
+/// BadUsage for options out of range; Cancelled.
 Result<WithFindings<LaidOutScene>> layOut(const scene::Scene& scene,
                                           std::span<const std::uint32_t> meshes,
                                           const trace::RayScene& rays, const LayoutOptions& options,

@@ -14,8 +14,8 @@
 namespace lambent::texel_layout {
 namespace {
 
-/// A box near the middle of a floor of two triangles without texture coordinates, and a wall far off
-/// that nothing stands before.
+/// A box near the middle of a floor of two triangles without texture coordinates, and a wall far
+/// off that nothing stands before.
 scene::Scene boxOnFloor() {
   scene::Scene scene;
   scene::Mesh floor = scene::gridPlane(8, 8, 1, 1);

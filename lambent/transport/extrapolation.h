@@ -36,8 +36,8 @@ class Extrapolation {
   Extrapolation(std::span<const std::uint8_t> wanted, std::vector<Interpolated> places,
                 std::vector<Mean> means);
 
-  /// Sets the rows of wanted receivers, from those of all others. `rowOf[r]` is the number of the row
-  /// of receiver r, or kNoRow where it has none, as all of its mesh; empty: r itself.
+  /// Sets the rows of wanted receivers, from those of all others. `rowOf[r]` is the number of the
+  /// row of receiver r, or kNoRow where it has none, as all of its mesh; empty: r itself.
   void fill(RowsToFill rows, std::span<const std::uint32_t> rowOf = {}) const;
 
  private:

@@ -59,16 +59,16 @@ struct PlacedReceivers {
     std::vector<std::uint32_t> receiverOfTexel;
     std::vector<std::uint8_t> covered;  ///< Texels: whether the texel's centre lies on the surface
     bool isDiffuse = false, isGlossy = false;
-    /// Whether a texture colours it, whose detail receivers are too few to hold: light that it sends
-    /// on takes the base colour where a ray strikes, not the receivers'.
+    /// Whether a texture colours it, whose detail receivers are too few to hold: light that it
+    /// sends on takes the base colour where a ray strikes, not the receivers'.
     bool textured = false;
     /// Bi-scale: a matrix records what arrives. What it sends on to others is diffuse, with the
     /// material's albedo: at the macro-scale the meso-structure is a matt surface.
     std::optional<LocalFrames> local;
   };
   std::vector<PerMesh> meshes;
-  /// Receivers behind those of the meshes: the mesh on which each stands. They are simulated and not
-  /// stored, for others to be set by (mend_buried.h).
+  /// Receivers behind those of the meshes: the mesh on which each stands. They are simulated and
+  /// not stored, for others to be set by (mend_buried.h).
   std::vector<std::uint32_t> witnesses;
 
   std::size_t size() const { return positions.size(); }
@@ -89,8 +89,9 @@ Result<PlacedReceivers> placeReceivers(const scene::Scene& scene, const Placemen
 /// fast as a well-ordered one.
 std::vector<std::uint32_t> spatialOrder(const PlacedReceivers& receivers);
 
-/// The receivers between which a point of a surface is interpolated: the corners of its triangle, or
-/// the four texels around it. Weights sum to 1; texels may share a receiver, which then comes twice.
+/// The receivers between which a point of a surface is interpolated: the corners of its triangle,
+/// or the four texels around it. Weights sum to 1; texels may share a receiver, which then comes
+/// twice.
 struct ReceiversAround {
   std::array<std::uint32_t, 4> receiver{};
   std::array<float, 4> weight{};

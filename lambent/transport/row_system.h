@@ -35,8 +35,8 @@ class RowSystem {
             std::vector<Term> terms);
 
   bool empty() const { return unknowns_.empty(); }
-  /// Sets the unknown rows. `rowOf[r]`: where row r is among `rows`, or kNoRow where it is not there;
-  /// empty: r itself.
+  /// Sets the unknown rows. `rowOf[r]`: where row r is among `rows`, or kNoRow where it is not
+  /// there; empty: r itself.
   void solve(RowsToFill rows, std::span<const std::uint32_t> rowOf = {}) const;
 
  private:

@@ -38,8 +38,8 @@ double areaOfUvs(const scene::Mesh& mesh, const scene::Triangle& t) {
   return std::abs(e.x() * f.y() - e.y() * f.x());
 }
 
-/// Of a mesh on texels: the chart whose light each texel holds; kNobody for those that show what lies
-/// beyond the border of the chart beside them.
+/// Of a mesh on texels: the chart whose light each texel holds; kNobody for those that show what
+/// lies beyond the border of the chart beside them.
 std::vector<std::uint32_t> chartOfTexels(const scene::Mesh& mesh,
                                          const PlacedReceivers::PerMesh& place,
                                          const std::vector<std::uint32_t>& charts) {

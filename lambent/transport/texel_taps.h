@@ -15,7 +15,8 @@ struct TexelTaps {
   std::array<double, 4> weights;
 };
 
-/// Of a place counted in texels from the centre of the first one; beyond the grid the last ones go on.
+/// Of a place counted in texels from the centre of the first one; beyond the grid the last ones go
+/// on.
 inline TexelTaps tapsAt(double x, double y, int width, int height) {
   const double left = std::floor(x), top = std::floor(y), a = x - left, b = y - top;
   TexelTaps taps;
