@@ -63,7 +63,7 @@ Status runBake(BakeRequest arguments, Console& console) {
   if (!scene) return scene.error();
 
   const macro::BakeOptions options = arguments.transfer.chosen(console);
-  auto chosen = arguments.texels.resolve(*scene, console);
+  auto chosen = arguments.texels.resolve(*scene);
   if (!chosen) return chosen.error();
 
   // Without bounces there is no room for a slipped ray's light to gather in.

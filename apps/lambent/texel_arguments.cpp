@@ -89,7 +89,7 @@ bool TexelArguments::wantsUvs() const {
   });
 }
 
-Result<ChosenTexels> TexelArguments::resolve(scene::Scene& scene, Console& console) const {
+Result<ChosenTexels> TexelArguments::resolve(scene::Scene& scene) const {
   ChosenTexels chosen;
   std::vector<bool> taken(scene.meshes.size(), false);
   // Meshes that are named are not meant by "every mesh" any more.

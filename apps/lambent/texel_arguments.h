@@ -31,7 +31,7 @@ struct TexelArguments {
   bool wantsUvs() const;
   /// The meshes by name or number; the backs of those that have some are laid out beside their
   /// fronts.
-  Result<ChosenTexels> resolve(scene::Scene& scene, Console& console) const;
+  Result<ChosenTexels> resolve(scene::Scene& scene) const;
 };
 
 /// Lays out what is to be, adds its grids to those that are there, and makes scene and rays anew.
