@@ -61,6 +61,31 @@ def no_teeth(tool):
     tool.assertLess(abs(far["bias"]), 0.004)
 
 
+def no_step(tool):
+    """The texels at both ends of a turn hold the same, where those beside them differ."""
+    asset, _ = tool.baked("us.glb", ("--texels", "40x20", "--transfer", "shadowed"))
+    value = [row[6] for row in tool.shaded(asset, "disc:90,30,60,1")]
+    tool.assertEqual(len(value), 800)
+    inner = range(2, 18)
+    step = max(abs(value[40 * y] - value[40 * y + 39]) for y in inner)
+    beside = max(abs(value[40 * y] - value[40 * y + 1]) for y in inner)
+    tool.assertLess(step, 0.05 * beside)
+
+
+def mirrors_see(scene, beyond, bias):
+    """Pictures against paths, in a light that harmonics hold whole. A mirror that showed the light
+    through walls was 31% too bright."""
+    def check(tool):
+        asset, _ = tool.baked(scene)
+        picture = ("--light", "uniform", "--size", "96x96")
+        tool.run_tool("render", asset, *picture, "-o", "ours.exr", "--backend", "cpu", "--quiet")
+        tool.run_tool("reference", scene, *picture, "--spp", "128", "-o", "truth.exr", "--quiet")
+        far = tool.run_json("compare", "truth.exr", "ours.exr")
+        tool.assertLess(far["beyond_noise"], beyond)
+        tool.assertLess(abs(far["bias"]), bias)
+    return check
+
+
 def texels(*sizes):
     return [("--texels", size) for size in sizes]
 
@@ -81,4 +106,9 @@ ROWS = {
         Radiance("quad.glb", GREY, options=("--texels", "1x1")),
     ],
     "06-emissive-csv": [Custom("a surface's own emission", emission_is_written)],
+    "08-texel-seam": [Custom("no step along the seam", no_step)],
+    "09-mirrors": [
+        Custom("a box that is a mirror in a room", mirrors_see("mixed.glb", 0.035, 0.012)),
+        Custom("a mirror ring on a ground", mirrors_see("ring.glb", 0.02, 0.005)),
+    ],
 }

@@ -11,9 +11,11 @@ import {
   ballScene,
   environmentExr,
   glossyScene,
+  leafScene,
   mattScene,
   mirrorScene,
   mirrorsScene,
+  sheetScene,
   texelScene,
 } from "../../../web/three-lambent/test/support/scenes.mjs";
 import { decodePng, meanDifference } from "./png.mjs";
@@ -48,6 +50,8 @@ const scenes = {
   mirror: mirrorScene,
   mirrors: mirrorsScene,
   texel: texelScene,
+  sheet: sheetScene,
+  leaf: leafScene,
   ball: ballScene,
 };
 for (const [name, bytes] of Object.entries(scenes)) put(`${name}-scene.glb`, bytes);
@@ -70,6 +74,9 @@ const kinds = {
   "diffuse-sharp-sun": { make: (to) => bake("matt", to, "--keep-shadowed"), sun: true },
   glossy: { make: (to) => bake("glossy", to) },
   texels: { make: (to) => bake("texel", to, "--texels", "sheet=48x40") },
+  "texels-laid-out": { make: (to) => bake("texel", to, "--texels", "auto", "--texel-budget", 4096) },
+  "two-sided-sheet": { make: (to) => bake("sheet", to) },
+  "cut-out-leaf": { make: (to) => bake("leaf", to) },
   "mirror-caustic": { make: (to) => bake("mirror", to) },
   "mirrors-between-colours": { make: (to) => bake("mirrors", to), bound: kMirrorsBound },
   "bi-scale-id-map": { make: (to) => synthesize(to, "--patch-width", 0.5), relief: true },
