@@ -7,8 +7,9 @@ JOBS   ?= $(shell nproc)
 # compiled with a sanitizer.
 ASAN_ROOMS ?= file math work astronomy radiometry media sh image tone scene scene_io transfer asset atlas trace \
               transport macro synthesis meso light sky sources capture shade view bi_scale reference
-# Tests that simulate for seconds where they are optimised, and for minutes where they are not.
-ASAN_LEFT_OUT ?= sky.(Scattering|SkyTables|Aerial|Air|ExactAir|Haze|Shafts)
+# Tests that simulate for seconds where they are optimised, and for minutes where they are not; and
+# runs of a room's tests once more, by another choice of instructions.
+ASAN_LEFT_OUT ?= sky.(Scattering|SkyTables|Aerial|Air|ExactAir|Haze|Shafts|ConstantAir)|SharpSun.CountsNothingTwice|shade.(baseline|avx2)
 TSAN_ROOMS ?= file work sh image atlas trace transport macro synthesis meso shade bi_scale reference
 # Tests of `make tsan`, as ctest's -R; all by default.
 TSAN_TESTS ?= .
