@@ -50,6 +50,12 @@ Simulation::Simulation(const scene::Scene& scene_, const trace::RayScene& rays_,
     describe(static_cast<std::uint32_t>(first + k), receivers.witnesses[k]);
   for (const Vec3& position : receivers.positions)
     setOfReceiver_.push_back(static_cast<std::uint8_t>(directions.numberAt(position)));
+  // What a thread takes at a time looks into one set after the other: its table and the parts of
+  // the scene that lie there stay in the cache.
+  for (std::size_t begin = 0; begin < order.size(); begin += kChunk)
+    std::stable_sort(
+        order.begin() + begin, order.begin() + std::min(begin + kChunk, order.size()),
+        [&](std::uint32_t a, std::uint32_t b) { return setOfReceiver_[a] < setOfReceiver_[b]; });
   for (std::size_t k = 0; k < directions.count(); ++k) {
     Tables& of = tables.emplace_back(Tables{DirectionTable(directions[k], inBands), {}, {}});
     if (matrixCount == 0) continue;

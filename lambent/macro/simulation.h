@@ -76,8 +76,9 @@ struct Simulation {
              const PlacedReceivers& receivers, const DirectionSets& directions,
              const BakeOptions& options, int channels, std::span<const std::uint8_t> set = {});
 
-  /// Of receivers in the sequence of `order`: what a thread takes at a time.
-  work::Chunks chunks() const { return work::Chunks(order.size(), 64); }
+  /// Receivers in the sequence of `order` that a thread takes at a time.
+  static constexpr std::size_t kChunk = 64;
+  work::Chunks chunks() const { return work::Chunks(order.size(), kChunk); }
   /// Whether passes follow pass 0.
   bool isBouncing() const {
     return options.kind == transfer::Kind::Interreflected && options.bounces > 0;
