@@ -53,7 +53,7 @@ struct Baked {
 Baked bake(const scene::Scene& scene, const macro::BakeOptions& options,
            const transport::Placement& placement = {});
 
-/// Linear radiance, relit by `light`; mirrors see `environment`.
+/// Linear radiance, relit by `light`; mirrors see `environment` behind the asset.
 image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& light,
                         const light::Environment& environment, const scene::Camera& camera,
                         int width, int height);

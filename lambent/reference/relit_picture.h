@@ -11,7 +11,8 @@
 
 namespace lambent::reference {
 
-/// `light` holds the harmonics that relight; `environment` is what mirrors and the background show.
+/// `light` holds the harmonics that relight; `environment` is the background, and what mirrors show
+/// where nothing of the asset is.
 Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoefficients& light,
                                   const light::Environment& environment,
                                   const scene::Camera& camera, const shade::PictureOptions& options,
