@@ -9,6 +9,7 @@ import { LambentLight, type Disc } from "../light/light.js";
 import { kLargestSun, sunOf, sunPoints, type SunPoint } from "../light/sun.js";
 import { stateOf } from "../materials/uniform-state.js";
 import { kindOf, type TransferChoice } from "./choices.js";
+import type { MeshSource } from "./mesh-source.js";
 import type { RelitMesh } from "./relit-mesh.js";
 
 /**
@@ -62,10 +63,8 @@ export class SharpSun {
   private weights: readonly number[] = [];
   private points: SunPoint[] = [];
 
-  constructor(meshes: readonly RelitMesh[]) {
-    this.map = new SunMap(
-      meshes.map(({ plain, coverage, texture }) => ({ geometry: plain, coverage, texture })),
-    );
+  constructor(meshes: readonly MeshSource[]) {
+    this.map = new SunMap(meshes);
     this.uniforms = {
       sunDirection: { value: new Vector3(0, 1, 0) },
       sunIrradiance: { value: new Vector3() },

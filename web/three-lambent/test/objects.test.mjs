@@ -1,0 +1,203 @@
+// An asset is an object of three's, and behaves as one: copies, materials, fog, exporters,
+// disposal; and nothing stays black without a word. In headless Chromium.
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, describe, it } from "node:test";
+import { bundle, openPage } from "./support/browser.mjs";
+import { ballScene, glossyScene, leafScene, mattScene, mirrorScene } from "./support/scenes.mjs";
+import { lambent, noTool } from "./support/tool.mjs";
+
+describe("assets as objects of three's", { skip: noTool }, () => {
+  let folder;
+  let browser;
+  const keep = process.env.LAMBENT_KEEP_PICTURES;
+
+  /** Runs a function in the page; nothing of what it does may make the page complain. */
+  async function run(what, ...args) {
+    const found = await browser.page.evaluate(what, ...args);
+    assert.deepEqual(browser.problems(), []);
+    if (keep && found?.pictures)
+      for (const [name, url] of Object.entries(found.pictures))
+        writeFileSync(join(keep, `${name}.png`), Buffer.from(url.split(",")[1], "base64"));
+    return found;
+  }
+
+  before(async () => {
+    folder = mkdtempSync(join(tmpdir(), "three-lambent-"));
+    const scenes = { matt: mattScene, glossy: glossyScene, mirror: mirrorScene, leaf: leafScene };
+    const quick = ["--directions", 256, "--bounces", 1, "--quiet"];
+    for (const [name, bytes] of Object.entries({ ...scenes, ball: ballScene })) {
+      writeFileSync(join(folder, `${name}-scene.glb`), bytes);
+      if (name === "ball") continue;
+      const more = name === "matt" ? ["--keep-shadowed"] : [];
+      lambent(folder, "bake", `${name}-scene.glb`, "-o", `${name}.glb`, ...quick, ...more);
+    }
+    const patch = ["--positions", "12x10", "--views", 4, "--directions", 64, "--bounces", 1];
+    lambent(folder, "rtt", "stucco", "-o", "patch.rtt", ...patch, "--quiet");
+    const spread = ["--directions", 128, "--map-size", 128, "--vertices", 3000, "--mesh", "ball"];
+    const rtt = ["--rtt", "patch.rtt", "--patch-width", 0.5, "--quiet"];
+    lambent(folder, "synthesize", "ball-scene.glb", ...rtt, "-o", "patch.glb", ...spread);
+    const script = await bundle(readFileSync(new URL("page/objects.js", import.meta.url), "utf8"));
+    browser = await openPage({ script, folder });
+    await browser.page.waitForFunction("window.ready");
+  });
+  after(async () => {
+    await browser?.close();
+    if (folder) rmSync(folder, { recursive: true });
+  });
+
+  describe("copies", () => {
+    for (const file of ["matt.glb", "glossy.glb", "mirror.glb", "patch.glb"])
+      it(`${file}: clones and instances, each turned, as assets loaded apart`, async () => {
+        const found = await run(async (file) => {
+          const { THREE, lambent, renderer, load, pixels, apart } = window;
+          const camera = window.makeCamera(3, 9);
+          const around = { texture: null, uniform: [0.3, 0.4, 0.6] };
+          const turns = [0, 1.9, -0.8, 2.6];
+          const places = [-1.7, 1.7, -1.7, 1.7];
+          const put = (root, i) => {
+            root.rotation.set(0, turns[i], 0);
+            root.position.set(places[i], 0, i < 2 ? 0 : -3);
+            return root;
+          };
+          // Each of its own.
+          const apartOnes = new THREE.Scene();
+          const assets = [];
+          for (let i = 0; i < 4; ++i) {
+            const { scene, userData } = await load(file);
+            apartOnes.add(put(scene, i));
+            assets.push(userData.lambent);
+            userData.lambent.setLight(window.makeLight());
+            userData.lambent.setEnvironment(around);
+          }
+          // One, two clones of it, made before the first update, and an instance.
+          const gltf = await load(file);
+          const one = lambent.lambentOf(gltf);
+          const scene = new THREE.Scene();
+          const clones = [gltf.scene.clone(), window.SkeletonUtils.clone(gltf.scene)];
+          one.setLight(window.makeLight());
+          one.setEnvironment(around);
+          const instance = one.instantiate();
+          [gltf.scene, ...clones, instance.root].forEach((root, i) => scene.add(put(root, i)));
+          const out = {};
+          for (const transfer of ["best", "unshadowed"]) {
+            one.transfer = instance.transfer = transfer;
+            one.update(renderer, camera);
+            instance.update(renderer, camera);
+            for (const asset of assets) {
+              asset.transfer = transfer;
+              asset.update(renderer, camera);
+            }
+            const truth = pixels(renderer, apartOnes, camera);
+            const shown = pixels(renderer, scene, camera);
+            out[transfer] = apart(truth, shown);
+            out.pictures ??= { copies: window.pictureOf(shown, 0.5) };
+            // What it would be if the copies were lit as the original.
+            clones.forEach((root) => (root.rotation.y = 0));
+            out[`${transfer} unturned`] = apart(truth, pixels(renderer, scene, camera));
+            clones.forEach((root, i) => put(root, i + 1));
+          }
+          out.error = renderer.getContext().getError();
+          for (const root of clones) lambent.LambentAsset.of(root).dispose();
+          for (const asset of [one, instance, ...assets]) asset.dispose();
+          return out;
+        }, file);
+        assert.equal(found.error, 0);
+        for (const transfer of ["best", "unshadowed"]) {
+          const { mean, most, light, covered } = found[transfer];
+          assert.ok(covered > 0.15 && light > 0.1, JSON.stringify(found));
+          assert.ok(mean < 1e-6 && most < 1e-3, `${transfer}: ${JSON.stringify(found)}`);
+          assert.ok(found[`${transfer} unturned`].mean > 100 * mean);
+        }
+      });
+
+    it("clones follow light and switches of the original until they have their own", async () => {
+      const found = await run(async () => {
+        const { THREE, lambent, renderer, load, pixels } = window;
+        const { scene, userData } = await load("matt.glb");
+        const asset = userData.lambent;
+        const copy = scene.clone();
+        copy.position.x = 2;
+        const clone = lambent.LambentAsset.of(copy);
+        const both = new THREE.Scene().add(scene, copy);
+        const camera = window.makeCamera();
+        const light = (r, g, b) => lambent.LambentLight.uniform([r, g, b]);
+        const sums = () => {
+          asset.update(renderer);
+          scene.visible = false;
+          const p = pixels(renderer, both, camera);
+          scene.visible = true;
+          return [0, 1, 2].map((c) => p.reduce((sum, v, i) => sum + (i % 4 === c ? v : 0), 0));
+        };
+        const out = {};
+        asset.setLight(light(1, 0, 0));
+        out.red = sums();
+        asset.setLight(light(0, 1, 0));
+        out.green = sums();
+        clone.setLight(light(0, 0, 1));
+        out.own = sums();
+        asset.setLight(light(1, 1, 0));
+        out.still = sums();
+        asset.unlit = true;
+        out.unlit = sums();
+        clone.unlit = true;
+        asset.unlit = false;
+        out.after = sums();
+        clone.dispose();
+        asset.dispose();
+        return out;
+      });
+      const shown = (rgb) => rgb.map((v) => (v > 1 ? 1 : 0)).join("");
+      assert.deepEqual(
+        Object.fromEntries(Object.entries(found).map(([name, rgb]) => [name, shown(rgb)])),
+        { red: "100", green: "010", own: "001", still: "001", unlit: "111", after: "001" },
+      );
+    });
+
+    it("share what is stored, and the last one frees it", async () => {
+      const found = await run(async () => {
+        const { renderer, load, counts, lambent } = window;
+        const camera = window.makeCamera();
+        const { scene, userData } = await load("patch.glb");
+        const one = userData.lambent;
+        one.setLight(window.makeLight());
+        const out = [counts(renderer)];
+        const draw = (asset) => {
+          asset.update(renderer);
+          renderer.render(asset.root, camera);
+          out.push(counts(renderer));
+        };
+        draw(one);
+        const two = one.instantiate();
+        draw(two);
+        one.dispose();
+        one.dispose();
+        out.push(counts(renderer));
+        draw(two);
+        const three = lambent.LambentAsset.of(two.root.clone());
+        draw(two);
+        two.dispose();
+        draw(three);
+        three.dispose();
+        out.push(counts(renderer));
+        out.push(await window.thrown(() => three.update(renderer)));
+        out.push(scene.parent === null);
+        return out;
+      });
+      const [none, one, two, oneLeft, same, both, last, end, message] = found;
+      assert.equal(two.geometries, one.geometries + 1, JSON.stringify(found)); // of its passes
+      // Of the floor and of the ball what is lit; maps, meso-structure and transfer are there
+      // already.
+      assert.equal(two.textures - one.textures, 2, JSON.stringify(found));
+      assert.ok(one.textures > 5);
+      assert.equal(two.programs, one.programs);
+      assert.deepEqual(same, oneLeft);
+      assert.deepEqual(last, same);
+      assert.ok(both.textures > same.textures);
+      assert.deepEqual(end, none);
+      assert.match(message, /disposed of/);
+    });
+  });
+});
