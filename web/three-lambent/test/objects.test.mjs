@@ -342,7 +342,8 @@ describe("assets as objects of three's", { skip: noTool }, () => {
         userData.lambent.dispose();
         const { materials, textures, images } = out.after;
         const same = JSON.stringify(materials) === JSON.stringify(out.before.materials);
-        return { materials, same, textures: textures.length, images: images.length, heard: out.heard };
+        const counts = { textures: textures.length, images: images.length };
+        return { materials, same, ...counts, heard: out.heard };
       });
       assert.deepEqual(found.heard, []);
       assert.equal(found.textures, 1);

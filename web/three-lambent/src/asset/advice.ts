@@ -59,7 +59,9 @@ export function adviseOnPlace(drawn: Drawn): void {
   const { matrixWorld } = drawn.root;
   const e = matrixWorld.elements;
   const scales = [0, 4, 8].map((i) => Math.hypot(e[i], e[i + 1], e[i + 2]));
-  if (matrixWorld.determinant() < 0)
+  if (!e.every(Number.isFinite))
+    say(drawn, "place", "stands nowhere: its matrix has a number that is not finite");
+  else if (matrixWorld.determinant() < 0)
     say(
       drawn,
       "mirrored",
