@@ -1,5 +1,5 @@
-// What a program probably did not mean is said: once, with what to do. Nothing stays black without a
-// word, and what is meant is not spoken of.
+// What a program probably did not mean is said: once, with what to do. Nothing stays black without
+// a word, and what is meant is not spoken of.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -205,7 +205,7 @@ describe("advice", { skip: noTool }, () => {
     });
     browser.problems(); // of a device without WebGPU
     const expected = {
-      directional: /^TypeError.*not DirectionalLight: three's lights do not relight it\. Use .*addDisc/,
+      directional: /^TypeError.*not DirectionalLight: three's lights do not.* Use .*addDisc/,
       ambient: /not AmbientLight: use LambentLight\.uniform/,
       probe: /not LightProbe: use LambentLight\.fromLightProbe/,
       texture: /not DataTexture: use LambentLight\.fromEquirectangular/,

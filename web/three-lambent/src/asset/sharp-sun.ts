@@ -4,6 +4,7 @@
 
 import { Matrix4, Quaternion, Vector3, type Camera, type Object3D, type WebGLRenderer } from "three";
 import type { AssetDescription, PrimitiveTransfer, TransferKind } from "../format/description.js";
+import { ordinaryProjection } from "../gpu/depth.js";
 import { SunMap } from "../gpu/sun-map.js";
 import { LambentLight, type Disc } from "../light/light.js";
 import { kLargestSun, sunOf, sunPoints, type SunPoint } from "../light/sun.js";
@@ -128,7 +129,7 @@ export class SharpSun {
         .clone()
         .invert()
         .multiply(root.matrixWorld)
-        .premultiply(camera.projectionMatrix);
+        .premultiply(ordinaryProjection(camera));
     }
     const { x, y, z } = this.uniforms.sunDirection.value;
     this.map.draw(renderer, [x, y, z], clipFromAsset);
