@@ -20,7 +20,8 @@ describe("advice", { skip: noTool }, () => {
       writeFileSync(join(folder, `${name}-scene.glb`), bytes);
       lambent(folder, "bake", `${name}-scene.glb`, "-o", `${name}.glb`, ...quick);
     }
-    const script = await bundle(readFileSync(new URL("page/objects.js", import.meta.url), "utf8"));
+    const page = readFileSync(new URL("page/objects.js", import.meta.url), "utf8");
+    const script = await bundle(`${page}\nwindow.webgpu = () => import("three/webgpu");`);
     browser = await openPage({ script, folder });
     await browser.page.waitForFunction("window.ready");
     await browser.page.evaluate(() => {

@@ -1,5 +1,5 @@
-// Renderers as programs make them: their depth buffers reversed or logarithmic, and pictures the
-// same.
+// Renderers as programs make them, their depth buffers reversed or logarithmic, and of the oldest three
+// that the package names: pictures are the same.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -7,7 +7,10 @@ import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { bundle, openPage } from "./support/browser.mjs";
 import { leafScene, mattScene, mirrorsScene } from "./support/scenes.mjs";
-import { lambent, noTool } from "./support/tool.mjs";
+import { bakePatch, lambent, noTool } from "./support/tool.mjs";
+
+const page = readFileSync(new URL("page/objects.js", import.meta.url), "utf8");
+const manifest = JSON.parse(readFileSync(new URL("../package.json", import.meta.url), "utf8"));
 
 describe("renderers", { skip: noTool }, () => {
   let folder;
@@ -22,8 +25,8 @@ describe("renderers", { skip: noTool }, () => {
       writeFileSync(join(folder, `${name}-scene.glb`), bytes);
       lambent(folder, "bake", `${name}-scene.glb`, "-o", `${name}.glb`, ...quick);
     }
-    const script = await bundle(readFileSync(new URL("page/objects.js", import.meta.url), "utf8"));
-    browser = await openPage({ script, folder });
+    bakePatch(folder);
+    browser = await openPage({ script: await bundle(page), folder });
     await browser.page.waitForFunction("window.ready");
   });
   after(async () => {
@@ -98,4 +101,66 @@ describe("renderers", { skip: noTool }, () => {
         assert.ok(found[how].mean < 2e-3 * found.soft.light, JSON.stringify(found));
       assert.ok(found.soft.mean > 10 * found.reversed.mean, JSON.stringify(found));
     });
+
+  it("the oldest three that the package names", async () => {
+    const { peerDependencies, devDependencies } = manifest;
+    assert.equal(peerDependencies.three, `>=${devDependencies["three-oldest"].split("@")[1]}`);
+    const script = await bundle(page, "three-oldest");
+    const old = await openPage({ script, folder });
+    try {
+      await old.page.waitForFunction("window.ready");
+      const shots = [];
+      for (const { page, problems } of [browser, old]) {
+        shots.push(await page.evaluate(drawAll));
+        assert.deepEqual(problems(), []);
+      }
+      const [now, then] = shots;
+      assert.equal(`>=0.${then.revision}.0`, peerDependencies.three);
+      assert.notEqual(now.revision, then.revision);
+      for (const file of ["matt.glb", "mirrors.glb", "patch.glb"]) {
+        const [a, b] = [now[file], then[file]];
+        const light = a.pixels.reduce((sum, v) => sum + v) / a.pixels.length;
+        const mean =
+          a.pixels.reduce((sum, v, i) => sum + Math.abs(v - b.pixels[i]), 0) / a.pixels.length;
+        console.log(`${file}: ${mean} apart, where the mean is ${light}`);
+        assert.ok(light > 0.05 && mean < 1e-3 * light, `${file}: ${mean}, ${light}`);
+        assert.deepEqual(b.left, { geometries: 0, textures: 0, programs: 0 });
+        assert.equal(b.error, 0);
+      }
+    } finally {
+      await old.close();
+    }
+  });
 });
+
+/** In the page: an asset and a clone of it, with everything around them. */
+async function drawAll() {
+  const { THREE, lambent, load, renderer, pixels, counts } = window;
+  const out = { revision: THREE.REVISION };
+  for (const file of ["matt.glb", "mirrors.glb", "patch.glb"]) {
+    const { scene: root, userData } = await load(file);
+    const asset = userData.lambent;
+    const copy = root.clone();
+    copy.position.set(1.5, 0, -1);
+    copy.rotation.y = 1;
+    const disc = { direction: new THREE.Vector3(1, 1.5, 0.4), diameter: 0.01 };
+    const sun = { ...disc, radiance: [60000, 50000, 40000] };
+    const around = { texture: null, uniform: [0.3, 0.5, 0.8] };
+    asset.setLight(window.makeLight().addDisc(sun));
+    asset.setSun(sun);
+    asset.setEnvironment(around);
+    asset.mirrorSize = 16;
+    const background = new lambent.EnvironmentBackground(around);
+    const scene = new THREE.Scene().add(root, copy, background);
+    scene.fog = new THREE.Fog(0x804020, 5, 14);
+    const camera = window.makeCamera();
+    asset.update(renderer, camera);
+    const shown = [...pixels(renderer, scene, camera)];
+    const error = renderer.getContext().getError();
+    background.dispose();
+    lambent.LambentAsset.of(copy).dispose();
+    asset.dispose();
+    out[file] = { pixels: shown, error, left: counts(renderer) };
+  }
+  return out;
+}

@@ -123,6 +123,5 @@ Object.assign(window, {
   ...{ THREE, GLTFExporter, SkeletonUtils, lambent, load, makeRenderer, makeLight, makeCamera },
   ...{ pixels, apart, heard, thrown, freeAll, counts, pictureOf, size },
 });
-window.webgpu = () => import("three/webgpu");
 window.renderer = makeRenderer();
 window.ready = true;
