@@ -1,5 +1,5 @@
-// Renderers as programs make them, their depth buffers reversed or logarithmic, and of the oldest three
-// that the package names: pictures are the same.
+// Renderers as programs make them, their depth buffers reversed or logarithmic, and of the oldest
+// three that the package names: pictures are the same.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
