@@ -17,6 +17,7 @@ import {
   mattScene,
   mirrorScene,
   mirrorsScene,
+  ringScene,
   sheetScene,
   texelScene,
 } from "./support/scenes.mjs";
@@ -46,6 +47,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       glossy: glossyScene,
       mirror: mirrorScene,
       mirrors: mirrorsScene,
+      ring: ringScene,
       sheet: sheetScene,
       leaf: leafScene,
       texel: texelScene,
@@ -78,6 +80,7 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
     bake("glossy", "glossy-unshadowed", "--transfer", "unshadowed");
     bake("mirror", "mirror");
     bake("mirrors", "mirrors", "--keep-shadowed");
+    bake("ring", "ring");
     bake("sheet", "sheet");
     bake("leaf", "leaf");
     bake("texel", "texel", "--texels", "sheet=48x40");
@@ -239,6 +242,15 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
   it("… with another lobe", () =>
     agree("glossy-lobe", "glossy.glb", ["--lobe", 40], { asset_: { lobeExponent: 40 } }));
   it("mirrors", () => agree("mirror", "mirror.glb"));
+  it("a mirror around a body that stands in its middle", async () => {
+    const { own } = await agree("ring", "ring.glb");
+    const without = await browser.page.evaluate((s) => window.compare(s), {
+      ...{ asset: "ring.glb", truth: "truth-ring.png", size: kSize, background: true },
+      ...{ environment: "environment.exr", asset_: { mirrorSize: 0 } },
+    });
+    console.log(`ring: ${without.own.toFixed(3)}/255 with the environment alone`);
+    assert.ok(without.own > 1.5 * own, `${own}/255, ${without.own}/255 without`);
+  });
   it("two sides", () => agree("sheet", "sheet.glb"));
   it("holes", () => agree("leaf", "leaf.glb"));
   it("texels, matt and glossy", () => agree("texel", "texel.glb"));

@@ -41,6 +41,8 @@ export class MeshSource {
   readonly what: string;
   /** What faces away is never to be seen. */
   readonly culled: boolean;
+  /** Of a mirror: where what it shows is captured from, once that is known. */
+  captureFrom: Vector3 | null = null;
   private threeEach: BufferGeometry | null = null;
 
   /** @param number of the mesh in its asset */

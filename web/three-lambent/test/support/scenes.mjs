@@ -129,6 +129,37 @@ export const mirrorScene = sceneGlb(
   [shiny([0.95, 0.85, 0.75], 1, 0), matt([0.7, 0.7, 0.7])],
 );
 
+/** A mirror ring around a ball that stands in its middle, on a floor with a texture. */
+export const ringScene = (() => {
+  const ring = { name: "ring", positions: [], normals: [], uvs: [], indices: [], material: 0 };
+  const [around, across] = [64, 24];
+  for (let i = 0; i <= around; ++i)
+    for (let j = 0; j <= across; ++j) {
+      const [a, b] = [(2 * Math.PI * i) / around, (2 * Math.PI * j) / across];
+      const [c, s] = [Math.cos(a), Math.sin(a)];
+      const r = 0.8 + 0.18 * Math.cos(b);
+      ring.positions.push(r * c, 0.55 + 0.18 * Math.sin(b), -r * s);
+      ring.normals.push(Math.cos(b) * c, Math.sin(b), -Math.cos(b) * s);
+      ring.uvs.push(i / around, j / across);
+    }
+  const at = (i, j) => i * (across + 1) + j;
+  for (let i = 0; i < around; ++i)
+    for (let j = 0; j < across; ++j) {
+      const corners = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+      ring.indices.push(corners[0], corners[1], corners[2]);
+      ring.indices.push(corners[2], corners[1], corners[3]);
+    }
+  return sceneGlb(
+    [
+      ring,
+      ball({ name: "red", center: [0, 0.5, 0], radius: 0.45, material: 1 }),
+      floor({ half: 1.5, material: 2, repeat: 3 }),
+    ],
+    [shiny([0.95, 0.85, 0.75], 1, 0), matt([0.8, 0.15, 0.1]), matt([0.8, 0.8, 0.8], 0)],
+    [checker],
+  );
+})();
+
 /** Stood up, its front towards +z, at a depth. */
 function standing(mesh, z) {
   for (const list of [mesh.positions, mesh.normals])
