@@ -41,16 +41,14 @@ const mixed = (a: number, b: number) => {
 };
 
 /** Two numbers for each vertex that tell its place, rounded to cells that begin at an offset. */
-function placesOf(geometry: BufferGeometry, box: Box3, offset: number): [Int32Array, Int32Array] {
-  const position = geometry.getAttribute("position");
-  const cells = 1 / (kOnePlace * box.getSize(new Vector3()).length());
-  const places = [1, 2].map((seed) => new Int32Array(position.count).fill(seed));
-  for (let i = 0; i < position.count; ++i)
-    for (const [axis, get] of (["getX", "getY", "getZ"] as const).entries()) {
-      const cell = Math.floor((position[get](i) - box.min.getComponent(axis)) * cells + offset);
-      for (const each of places) each[i] = mixed(each[i], cell);
-    }
-  return [places[0], places[1]];
+function placesOf(positions: Float64Array, cell: number, offset: number): Int32Array[] {
+  const places = [1, 2].map((seed) => new Int32Array(positions.length / 3).fill(seed));
+  for (let i = 0; i < positions.length; ++i) {
+    const at = Math.floor(positions[i] / cell + offset);
+    const vertex = (i / 3) | 0;
+    for (const each of places) each[vertex] = mixed(each[vertex], at);
+  }
+  return places;
 }
 
 /**
@@ -64,28 +62,36 @@ export function isBody(geometry: BufferGeometry): boolean {
   const { index } = geometry;
   const count = index ? index.count : position.count;
   if (count < 12 || count % 3 !== 0) return false;
-  const corner = (i: number) => (index ? index.getX(i) : i);
   const box = new Box3().setFromBufferAttribute(position);
-  if (!(box.getSize(new Vector3()).length() > 0)) return false;
-  const middle = box.getCenter(new Vector3());
-  const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+  const diagonal = box.getSize(new Vector3()).length();
+  if (!(diagonal > 0)) return false;
+  const { x, y, z } = box.getCenter(new Vector3());
+  const p = new Float64Array(3 * position.count); // from the middle
+  for (let i = 0; i < position.count; ++i) {
+    p[3 * i] = position.getX(i) - x;
+    p[3 * i + 1] = position.getY(i) - y;
+    p[3 * i + 2] = position.getZ(i) - z;
+  }
+  const corners = new Uint32Array(count);
+  for (let i = 0; i < count; ++i) corners[i] = index ? index.getX(i) : i;
   let volume = 0;
   for (let i = 0; i < count; i += 3) {
-    for (const [k, at] of [a, b, c].entries())
-      at.fromBufferAttribute(position, corner(i + k)).sub(middle);
-    volume += a.dot(b.cross(c));
+    const [a, b, c] = [3 * corners[i], 3 * corners[i + 1], 3 * corners[i + 2]];
+    volume +=
+      p[a] * (p[b + 1] * p[c + 2] - p[b + 2] * p[c + 1]) +
+      p[a + 1] * (p[b + 2] * p[c] - p[b] * p[c + 2]) +
+      p[a + 2] * (p[b] * p[c + 1] - p[b + 1] * p[c]);
   }
   if (!(volume > 0)) return false;
   // What lies on both sides of one set of cells' borders does not on the other's.
   return [0.5, 0].some((offset) =>
-    placesOf(geometry, box, offset).every((places) => {
+    placesOf(p, kOnePlace * diagonal, offset).every((places) => {
       let sum = 0;
-      for (let i = 0; i < count; i += 3)
-        for (let k = 0; k < 3; ++k) {
-          const from = places[corner(i + k)];
-          const to = places[corner(i + ((k + 1) % 3))];
-          sum = (sum + mixed(from, to) - mixed(to, from)) | 0;
-        }
+      for (let i = 0; i < count; i += 3) {
+        const [a, b, c] = [places[corners[i]], places[corners[i + 1]], places[corners[i + 2]]];
+        sum = (sum + mixed(a, b) - mixed(b, a) + mixed(b, c) - mixed(c, b)) | 0;
+        sum = (sum + mixed(c, a) - mixed(a, c)) | 0;
+      }
       return sum === 0;
     }),
   );
