@@ -293,8 +293,7 @@ export class LambentAsset {
    *   alone, and is as much finer. Without it all of the asset.
    * @returns whether something was relit
    * @throws Error if the asset is too large for the device's textures, the light has a number that
-   *   is
-   *   not finite, or the renderer is not a WebGLRenderer with WebGL 2
+   *   is not finite, or the renderer is not a WebGLRenderer with WebGL 2
    */
   update(renderer: WebGLRenderer, camera?: Camera): boolean {
     checkRenderer(renderer);
