@@ -36,6 +36,7 @@ import {
   type RelitMaterial,
 } from "../materials/relit-material.js";
 import { bandOf, evaluateHarmonics } from "../sh/basis.js";
+import { leastSofteningOfZonal } from "../sh/window.js";
 import { clampedCosineMoments, phongLobeMoments } from "../sh/zonal.js";
 import { kindOf, macroOf, type TransferChoice } from "./choices.js";
 import type { Reflectance } from "./reflectance.js";
@@ -49,6 +50,7 @@ export interface Choices {
   viewDependent: boolean;
   filter: boolean;
   lobeExponent: number | null;
+  softLobes: boolean;
   unlit: boolean;
   samples: number;
   sample: number;
@@ -59,11 +61,15 @@ export interface Choices {
   captured: boolean;
 }
 
-/** [coefficient][3], in the asset's frame: of all light, of a sharp Sun's share, and of the rest. */
+/**
+ * [coefficient][3], in the asset's frame: of all light, of a sharp Sun's share, of the rest, and of what
+ * lobes see.
+ */
 export interface Lights {
   whole: Float64Array;
   sun: Float64Array;
   withoutSun: Float64Array;
+  lobes: Float64Array;
 }
 
 /** How incident light comes to the fragments: interpolated, or fetched at the triangle's corners. */
@@ -285,7 +291,7 @@ export class RelitMesh {
       const channels = unshadowed ? 1 : matrices.channels;
       const shape = { rows, columns, channels, shared: unshadowed };
       const pass = new TransferPass(numbers, shape, texture, matrices.glossy, this.what);
-      this.lits.push({ texture, pass, glossy: true, scales: null, light: "whole" });
+      this.lits.push({ texture, pass, glossy: true, scales: null, light: "lobes" });
       uniforms.incidentLit = { value: texture.target.texture };
       uniforms.incidentALine = { value: texture.receiversALine };
     }
@@ -448,14 +454,16 @@ export class RelitMesh {
     renderer: WebGLRenderer,
     screen: FullScreenPass,
     lights: Lights,
-    lobeExponent: number | null,
+    { lobeExponent, softLobes }: Pick<Choices, "lobeExponent" | "softLobes">,
   ): void {
     for (const { texture, pass, glossy, scales, light } of this.lits) {
       const factors = new Float32Array(4 * Math.ceil(texture.rows / 4)).fill(1);
       if (glossy) {
         const exponent = lobeExponent ?? this.transfer!.matrices!.lobeExponent;
         const moments = phongLobeMoments(Math.sqrt(texture.rows), exponent);
-        for (let i = 0; i < texture.rows; ++i) factors[i] = moments[bandOf(i)];
+        const window = softLobes ? leastSofteningOfZonal(moments) : moments.map(() => 1);
+        for (let i = 0; i < texture.rows; ++i)
+          factors[i] = window[bandOf(i)] * moments[bandOf(i)];
       }
       scales?.forEach((scale, i) => (factors[i] *= scale));
       pass.run(renderer, screen, lights[light], factors);
