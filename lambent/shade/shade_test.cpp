@@ -323,7 +323,9 @@ TEST(ExitRadiance, SoftLobesShowNothingNegativeOfASmallLight) {
           if (soft) peak = std::max(peak, out);
         }
       EXPECT_GE(lowest[1], -2e-3f * peak) << bands << " bands, exponent " << exponent;
-      if (exponent > 10) EXPECT_LT(lowest[0], -0.05f * peak) << bands << ", " << exponent;
+      if (exponent > 10) {
+        EXPECT_LT(lowest[0], -0.05f * peak) << bands << " bands, exponent " << exponent;
+      }
     }
   }
 }
