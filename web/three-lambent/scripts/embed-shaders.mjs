@@ -18,9 +18,19 @@ for (const folder of kFolders)
     texts.set(file, readFileSync(new URL(file, folder), "utf8"));
   }
 
+/** Without comments, indentation and empty lines, which a page need not fetch. */
+const bare = (text) =>
+  text
+    .replace(/\/\*[\s\S]*?\*\/|\/\/.*$/gm, "")
+    .split("\n")
+    .map((line) => line.trim())
+    .filter((line) => line !== "")
+    .map((line) => `${line}\n`)
+    .join("");
+
 let out = "// Made by scripts/embed-shaders.mjs.\n";
 for (const [file, text] of texts)
-  out += `export const ${nameOf(file)}: string = ${JSON.stringify(text)};\n`;
+  out += `export const ${nameOf(file)}: string = ${JSON.stringify(bare(text))};\n`;
 const all = [...texts.values()].join("\n");
 for (const name of kConstants) {
   const found = [...all.matchAll(new RegExp(`^const int ${name} = (\\d+);`, "gm"))];

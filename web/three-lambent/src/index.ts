@@ -7,12 +7,17 @@
  *
  * @packageDocumentation
  */
-export { LambentLoaderPlugin, type LambentLoaderOptions } from "./loader-plugin.js";
+export {
+  lambentOf,
+  LambentLoaderPlugin,
+  type LambentGLTF,
+  type LambentLoaderOptions,
+} from "./loader-plugin.js";
 export { LambentAsset } from "./asset/asset.js";
 export type { AssetInfo, AssetKind } from "./asset/info.js";
 export type { AirOptions } from "./asset/asset-air.js";
 export type { TransferChoice } from "./asset/choices.js";
-export type { IncidentMode } from "./asset/relit-mesh.js";
+export type { IncidentMode } from "./asset/asset-source.js";
 export { LambentFormatError } from "./format/description.js";
 export {
   LambentLight,

@@ -2,10 +2,11 @@
 
 import type { BufferAttribute, Mesh, Object3D } from "three";
 import type { GLTF, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
-import { LambentAsset, type MeshEntry } from "./asset/asset.js";
+import { LambentAsset } from "./asset/asset.js";
+import { AssetSource, type IncidentMode } from "./asset/asset-source.js";
+import type { MeshEntry } from "./asset/mesh-source.js";
 import { coverageOf, kWhole } from "./materials/coverage.js";
 import { reflectanceOf } from "./asset/reflectance.js";
-import type { IncidentMode } from "./asset/relit-mesh.js";
 import { kExtensionName, LambentFormatError, type AssetDescription } from "./format/description.js";
 import { hasTransfer, readTransfer } from "./format/read.js";
 
@@ -16,6 +17,25 @@ export interface LambentLoaderOptions {
    * vertices for each triangle), "auto": varyings, if the device has enough. Default "auto".
    */
   incident?: IncidentMode;
+}
+
+/** What GLTFLoader makes of a baked file. */
+export interface LambentGLTF extends GLTF {
+  userData: GLTF["userData"] & { lambent: LambentAsset };
+}
+
+/**
+ * The asset of a loaded file, which is also at `gltf.userData.lambent`.
+ *
+ * @throws Error if the file was not baked, or was loaded without {@link LambentLoaderPlugin}
+ */
+export function lambentOf(gltf: Pick<GLTF, "userData">): LambentAsset {
+  const asset = gltf.userData?.lambent as LambentAsset | undefined;
+  if (typeof asset?.update === "function") return asset;
+  throw new Error(
+    "three-lambent: nothing to relight in this file: bake it (lambent bake scene.glb -o " +
+      "baked.glb), and load it by new GLTFLoader().register((p) => new LambentLoaderPlugin(p))",
+  );
 }
 
 /**
@@ -77,12 +97,9 @@ export class LambentLoaderPlugin {
     });
     // What no scene shows, nobody can relight.
     gltf.userData ??= {};
-    gltf.userData.lambent = new LambentAsset(
-      gltf.scene,
-      description,
-      entries,
-      this.options.incident ?? "auto",
-    );
+    const source = new AssetSource(description, entries, this.options.incident ?? "auto");
+    const meshes = entries.map(({ mesh }) => mesh);
+    gltf.userData.lambent = new LambentAsset(gltf.scene, source, meshes);
     return null;
   }
 }

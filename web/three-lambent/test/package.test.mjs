@@ -15,6 +15,20 @@ const sample = readFileSync(
   new URL("../../../spec/samples/unoccluded-square.glb", import.meta.url),
 );
 
+/** What a program in TypeScript may say, and may not. */
+const kProgram = `
+import { LambentAsset, lambentOf, evaluateHarmonics, type LambentGLTF } from "three-lambent";
+export const asset: LambentAsset = lambentOf(gltf);
+export const same: LambentAsset = (gltf as LambentGLTF).userData.lambent;
+export const copy: THREE.Object3D = asset.instantiate().root;
+export const values: Float64Array = evaluateHarmonics(3, 0, 0, 1);
+asset.transfer = "shadowed";
+// @ts-expect-error no such choice
+asset.transfer = "bouncy";
+// @ts-expect-error not a light that relights
+asset.setLight(new THREE.DirectionalLight());
+`;
+
 describe("the package", () => {
   it("holds what it should, and nothing else", () => {
     const [{ files }] = JSON.parse(
@@ -59,15 +73,20 @@ describe("the package", () => {
     for (const name of names) assert.ok(small.has(name) || readme.includes(`\`${name}\``), name);
   });
 
-  it("can be used by a program in strict TypeScript", () => {
+  // With the current TypeScript and with the oldest that three's own types are made for.
+  for (const compiler of ["typescript", "typescript-oldest"])
+    it(`can be used by a program in strict TypeScript that checks libraries: ${compiler}`, () =>
+      compile(compiler));
+
+  function compile(compiler) {
     const folder = mkdtempSync(join(tmpdir(), "three-lambent-"));
     try {
       const example = /```js\n(import[\s\S]*?)```/.exec(readme)[1];
-      writeFileSync(join(folder, "example.ts"), `${example}\n`);
+      writeFileSync(join(folder, "example.ts"), `${example}\n${kProgram}\n`);
       const options = {
         compilerOptions: {
           ...{ target: "ES2022", module: "ESNext", moduleResolution: "bundler", strict: true },
-          ...{ noEmit: true, lib: ["ES2022", "DOM"], types: [], skipLibCheck: true },
+          ...{ noEmit: true, lib: ["ES2022", "DOM"], types: [], skipLibCheck: false },
           paths: {
             "three-lambent": [join(root, "dist/index.d.ts")],
             three: [join(root, "node_modules/@types/three")],
@@ -77,7 +96,7 @@ describe("the package", () => {
         files: ["example.ts"],
       };
       writeFileSync(join(folder, "tsconfig.json"), JSON.stringify(options));
-      execFileSync("node", [join(root, "node_modules/typescript/bin/tsc"), "-p", folder], {
+      execFileSync("node", [join(root, `node_modules/${compiler}/bin/tsc`), "-p", folder], {
         encoding: "utf8",
       });
     } catch (error) {
@@ -85,7 +104,7 @@ describe("the package", () => {
     } finally {
       rmSync(folder, { recursive: true });
     }
-  });
+  }
 });
 
 describe("the README", () => {

@@ -802,7 +802,9 @@ describe("pictures against the CPU's", { skip: noTool }, () => {
       for (const name of ["matt", "patch", "mirror"]) {
         const { scene, userData } = await window.load(`${name}.glb`);
         userData.lambent.update(window.renderer);
-        out[name] = scene.children.map(({ material }) => material.fragmentShader.includes("bool capturing"));
+        out[name] = scene.children.map(({ material: { shaders } }) =>
+          shaders.fragment.includes("bool capturing"),
+        );
         userData.lambent.dispose();
       }
       return out;

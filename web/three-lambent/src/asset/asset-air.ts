@@ -45,9 +45,7 @@ export class AssetAir {
   /** Of shaders/aerial_perspective.glsl, air_texels.glsl, air_behind.glsl and shafts.glsl. */
   readonly uniforms = {
     airTable: { value: null as Texture | null },
-    airNodes: {
-      value: Int32Array.of(kAirSize.azimuths, kAirSize.elevations, kAirSize.distances),
-    },
+    airNodes: { value: [kAirSize.azimuths, kAirSize.elevations, kAirSize.distances] as number[] },
     airShell: { value: new Vector4() },
     airScale: { value: 1 },
     towardsSun: { value: new Vector3(0, 1, 0) },
@@ -62,7 +60,7 @@ export class AssetAir {
     shaftAxis: { value: new Vector3() },
     shaftDepths: { value: new Vector2() },
     shaftRate: { value: 0 },
-    shaftPlanes: { value: Int32Array.of(kPlanes, kSamples) },
+    shaftPlanes: { value: [kPlanes, kSamples] },
   };
   /** Without its translation: what a background needs beside them. */
   readonly assetFromWorld = new Matrix3();

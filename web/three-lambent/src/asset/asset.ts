@@ -1,59 +1,52 @@
 // A relit asset in a three scene: its light, its switches, its resources.
 
 import {
+  Object3D,
   Quaternion,
-  Texture,
   Vector3,
   type Camera,
-  type Material,
   type Mesh,
-  type Object3D,
+  type Scene,
+  type Texture,
   type WebGLRenderer,
 } from "three";
-import type { AssetDescription } from "../format/description.js";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { canCapture } from "../gpu/local-capture.js";
-import { RttTexture } from "../gpu/rtt-texture.js";
+import { checkRenderer } from "../gpu/renderer.js";
+import { checkLight } from "../light/check.js";
 import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
 import type { AirMode } from "../materials/air-source.js";
-import { hasGrain, type Coverage } from "../materials/coverage.js";
+import { hasGrain } from "../materials/coverage.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
 import type { AerialPerspective } from "../sky/air.js";
 import { bandOf } from "../sh/basis.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
 import { leastSofteningWindow } from "../sh/window.js";
 import { infoOf, kindsOf, type AssetInfo, type AssetKind } from "./info.js";
+import { adviseOnDrawing, adviseOnPlace, type Drawn } from "./advice.js";
 import { AssetAir, type AirOptions } from "./asset-air.js";
-import { offers, type TransferChoice } from "./choices.js";
+import type { AssetSource } from "./asset-source.js";
+import { checkTransfer, offers, type TransferChoice } from "./choices.js";
+import type { Given } from "./given.js";
 import { capturedUniforms, Mirrors } from "./mirrors.js";
-import type { Reflectance } from "./reflectance.js";
-import { RelitMesh, type Choices, type IncidentMode, type Lights } from "./relit-mesh.js";
+import { RelitMesh, type Choices, type Lights } from "./relit-mesh.js";
 import { kindWithoutBounces, SharpSun, sunNotes } from "./sharp-sun.js";
-
-/** A mesh as the loader made it, with what the file says of it. */
-export interface MeshEntry {
-  mesh: Mesh;
-  /** Of "MESH/PRIMITIVE" in the document. */
-  key: string;
-  reflectance: Reflectance;
-  coverage: Coverage;
-}
 
 const assets = new WeakMap<Object3D, LambentAsset>();
 
 /**
- * An asset with transfer: at `gltf.userData.lambent` after loading, or by {@link LambentAsset.of}.
+ * An asset with transfer: by {@link lambentOf} after loading, or by {@link LambentAsset.of}.
  *
  * All of its meshes move together with `root`, rigidly or scaled evenly: move that, not the meshes.
  * Set light and switches whenever you like, and call {@link update} once a frame before drawing.
+ * `root.clone()` is lit as this asset is, wherever it is turned to, by this asset's `update`;
+ * {@link instantiate} makes one whose light and switches are its own.
  */
 export class LambentAsset {
-  /** gltf.scene. */
+  /** gltf.scene, or the copy of it that this instance is. */
   readonly root: Object3D;
   readonly info: AssetInfo;
   readonly kinds: ReadonlySet<AssetKind>;
-  /** Which part of the transport relights. Default "best". */
-  transfer: TransferChoice = "best";
   /** Off: meso-structure takes the light as if nothing had hidden it on its way. Default true. */
   macro = true;
   /** Off: meso-structure everywhere as seen from straight above. Default true. */
@@ -81,14 +74,19 @@ export class LambentAsset {
   /** Which of them the next one is, from 0: each sees the Sun from a point of its own. Default 0. */
   sample = 0;
 
-  private readonly description: AssetDescription;
+  private readonly source: AssetSource;
   private readonly relit: RelitMesh[];
   private readonly environment = new EnvironmentUniforms();
   /** @internal */
   readonly air = new AssetAir();
   private readonly screen = new FullScreenPass();
-  private readonly rtts = new Map<number, RttTexture>();
-  private light: LambentLight | null = null;
+  private choice: TransferChoice = "best";
+  private given: Given = {};
+  /** What it takes from an asset that it was cloned from: where it has nothing of its own. */
+  private followed: { choices: Record<string, unknown>; given: Given } | null = null;
+  private clones = new Set<WeakRef<LambentAsset>>();
+  private readonly drawn: Drawn;
+  private disposed = false;
   private readonly rotation: HarmonicRotation;
   private readonly assetLight: Float64Array;
   private readonly sunShare: Float64Array;
@@ -97,43 +95,47 @@ export class LambentAsset {
   private done = "";
   private lost: { canvas: EventTarget; listener: () => void } | null = null;
 
-  /** @internal Made by LambentLoaderPlugin. */
-  constructor(
-    root: Object3D,
-    description: AssetDescription,
-    entries: readonly MeshEntry[],
-    incident: IncidentMode,
-  ) {
+  /**
+   * @internal Made by LambentLoaderPlugin.
+   *
+   * @param meshes what is drawn of each mesh of the source; undefined: nothing
+   */
+  constructor(root: Object3D, source: AssetSource, meshes: readonly (Mesh | undefined)[]) {
+    const { description } = source;
     this.root = root;
-    this.description = description;
+    this.source = source;
+    source.retain();
     this.rotation = new HarmonicRotation(description.bands);
     this.assetLight = new Float64Array(3 * description.bands ** 2);
     this.sunShare = new Float64Array(3 * description.bands ** 2);
     const captured = capturedUniforms();
+    this.sun = new SharpSun(source.meshes);
     const shared = {
-      description,
-      incident,
+      source,
       environment: this.environment,
       air: this.air.uniforms,
       captured,
-      rtt: (index: number) => this.rtt(index),
+      sun: this.sun.uniforms,
+      drawn: (mesh: RelitMesh, scene: Scene, object: Object3D) =>
+        adviseOnDrawing(this.drawn, mesh, scene, object),
+      disposed: () => this.freeRest(),
     };
-    this.relit = entries.map(
-      ({ mesh, key, reflectance, coverage }, number) =>
-        new RelitMesh(
-          mesh,
-          description.primitives.get(key) ?? null,
-          reflectance,
-          shared,
-          coverage,
-          number,
-        ),
-    );
-    this.sun = new SharpSun(this.relit);
-    for (const mesh of this.relit) mesh.sunUniforms = this.sun.uniforms;
+    this.relit = source.meshes.flatMap((each, i) => {
+      const mesh = meshes[i];
+      return mesh ? [new RelitMesh(mesh, each, shared)] : [];
+    });
     this.mirrors = new Mirrors(this.relit, this.sun.map.bounds, captured);
     this.kinds = kindsOf(this.relit);
     this.info = infoOf(description, this.relit);
+    const { said } = source;
+    const diagonal = this.sun.map.bounds.getSize(new Vector3()).length();
+    const [lightGiven, environmentGiven] = [false, false];
+    this.drawn = {
+      ...{ root, diagonal, said, lightGiven, environmentGiven },
+      ...{ updated: false, unlit: false },
+    };
+    root.clone = (recursive = true) =>
+      recursive ? this.makeClone().root : Object3D.prototype.clone.call(root, false);
     assets.set(root, this);
   }
 
@@ -150,17 +152,91 @@ export class LambentAsset {
     return this.relit.map(({ mesh }) => mesh);
   }
 
+  /**
+   * Which part of the transport relights. Default "best".
+   *
+   * @throws RangeError for another name
+   */
+  get transfer(): TransferChoice {
+    return this.choice;
+  }
+  set transfer(choice: TransferChoice) {
+    this.choice = checkTransfer(choice);
+  }
+
+  /**
+   * Another one of the same, with a root of its own that stands where this one's does, below
+   * nothing, and the light and switches that this one has now. From then on they are its own: turn
+   * it, light it, `update` and dispose of it by itself. Geometries, textures and stored transfer
+   * are shared; the last instance that is disposed of frees them. What is lit takes 16 bytes for
+   * each diffuse receiver, and for each glossy one as many times that as it has groups of four
+   * numbers.
+   */
+  instantiate(): LambentAsset {
+    const root = Object3D.prototype.clone.call(this.root, true);
+    const copies = new Map<Object3D, Object3D>();
+    const pair = (from: Object3D, to: Object3D) => {
+      copies.set(from, to);
+      from.children.forEach((child, i) => pair(child, to.children[i]));
+    };
+    pair(this.root, root);
+    const meshes = this.source.meshes.map((source) => {
+      const relit = this.relit.find((each) => each.source === source);
+      return relit && (copies.get(relit.mesh) as Mesh | undefined);
+    });
+    const made = new LambentAsset(root, this.source, meshes);
+    made.take(this);
+    return made;
+  }
+
+  /** What root.clone() is the root of. */
+  private makeClone(): LambentAsset {
+    const made = this.instantiate();
+    made.followed = { choices: made.settings(), given: { ...made.given } };
+    this.clones.add(new WeakRef(made));
+    return made;
+  }
+
+  private settings(): Record<string, unknown> {
+    return Object.fromEntries(kSettings.map((name) => [name, this[name]]));
+  }
+
+  /** All settings of another one, or, of a clone, those that were not changed here. */
+  private take(from: LambentAsset): void {
+    const followed = this.followed ?? { choices: this.settings(), given: { ...this.given } };
+    for (const name of kSettings)
+      if (this[name] === followed.choices[name]) Object.assign(this, { [name]: from[name] });
+    const { light, environment, sun, air } = from.given;
+    if (this.given.light === followed.given.light)
+      if (light !== undefined && light !== this.given.light) this.setLight(light);
+    if (this.given.environment === followed.given.environment)
+      if (environment !== undefined && environment !== this.given.environment)
+        this.setEnvironment(environment);
+    if (this.given.sun === followed.given.sun && sun && sun !== this.given.sun) {
+      this.setSun(sun.disc, sun.weights);
+      this.given.sun = sun;
+    }
+    if (this.given.air === followed.given.air && air && air !== this.given.air) {
+      this.setAir(air.air, air.options);
+      this.given.air = air;
+    }
+    if (this.followed) this.followed = { choices: from.settings(), given: { ...from.given } };
+  }
+
   /** Whether every mesh holds what a choice asks for; "best" and "unshadowed" always. */
   offers(choice: TransferChoice): boolean {
-    return offers(this.description, choice);
+    return offers(this.source.description, choice);
   }
 
   /**
    * Light in the world, one for the whole asset. It is held, not copied: what is done to it later is
    * followed by the next update(). null: darkness.
+   *
+   * @throws TypeError for anything else, such as one of three's own lights
    */
   setLight(light: LambentLight | null): void {
-    this.light = light;
+    this.given.light = checkLight(light);
+    this.drawn.lightGiven = true;
     this.done = "";
   }
 
@@ -177,19 +253,20 @@ export class LambentAsset {
    */
   setSun(sun: Disc | null, weights: ArrayLike<number> = []): void {
     this.sun.set(sun, weights);
+    this.given.sun = { disc: sun, weights };
     this.done = "";
   }
 
   /** Whether any surface can show a sharp Sun, whatever is chosen. */
   get offersSharpSun(): boolean {
     return this.relit.some(
-      ({ transfer }) => transfer && kindWithoutBounces(this.description, transfer, "best"),
+      ({ transfer }) => transfer && kindWithoutBounces(this.source.description, transfer, "best"),
     );
   }
 
   /** What of the asset a sharp Sun does not reach as it is shown, in words with the remedy. */
   sunNotes(): string[] {
-    return sunNotes(this.description, this.relit, this.transfer);
+    return sunNotes(this.source.description, this.relit, this.transfer);
   }
 
   /**
@@ -200,11 +277,14 @@ export class LambentAsset {
    */
   setAir(air: AerialPerspective | null, options: AirOptions = {}): void {
     this.air.set(air, options);
+    this.given.air = { air, options };
   }
 
   /** What mirrors show behind the asset itself ({@link mirrorSize}); null: black. */
   setEnvironment(environment: Environment | null): void {
     this.environment.set(environment);
+    this.given.environment = environment;
+    this.drawn.environmentGiven = true;
   }
 
   /** The same: a latitude-longitude map, turned by worldFromEnvironment. */
@@ -221,9 +301,27 @@ export class LambentAsset {
    * @param camera what will be drawn with: the map of the Sun's shadows then covers what it sees
    *   alone, and is as much finer. Without it all of the asset.
    * @returns whether something was relit
-   * @throws Error if the asset is too large for the device's textures
+   * @throws Error if the asset is too large for the device's textures, the light has a number that
+   *   is
+   *   not finite, or the renderer is not a WebGLRenderer with WebGL 2
    */
   update(renderer: WebGLRenderer, camera?: Camera): boolean {
+    checkRenderer(renderer);
+    if (this.disposed)
+      throw new Error("three-lambent: update() of an asset that was disposed of: load it again");
+    let relit = this.updateOne(renderer, camera);
+    for (const each of this.clones) {
+      const clone = each.deref();
+      if (!clone || clone.disposed) this.clones.delete(each);
+      else {
+        clone.take(this);
+        relit = clone.update(renderer, camera) || relit;
+      }
+    }
+    return relit;
+  }
+
+  private updateOne(renderer: WebGLRenderer, camera: Camera | undefined): boolean {
     this.follow(renderer);
     const choices: Choices = {
       transfer: this.transfer,
@@ -242,7 +340,10 @@ export class LambentAsset {
     let due = false;
     for (const mesh of this.relit) due = mesh.prepare(renderer, choices) || due;
     this.root.updateWorldMatrix(true, false);
+    this.drawn.updated = true;
+    this.drawn.unlit = this.unlit;
     if (this.unlit) return false;
+    adviseOnPlace(this.drawn);
     this.sun.aim(this.root, this.sample, this.samples);
     this.air.look(this.root);
     const relit = this.relight(renderer, due);
@@ -253,7 +354,7 @@ export class LambentAsset {
 
   private relight(renderer: WebGLRenderer, due: boolean): boolean {
     this.root.matrixWorld.decompose(translation, rotation, scale);
-    const { light } = this;
+    const { light = null } = this.given;
     const state = [
       light?.version ?? "dark",
       this.lobeExponent,
@@ -276,7 +377,9 @@ export class LambentAsset {
     whole.fill(0);
     sun.fill(0);
     if (light) {
-      const bands = Math.min(light.bands, this.description.bands);
+      const bands = Math.min(light.bands, this.source.description.bands);
+      if (!light.coefficients.every(Number.isFinite))
+        throw new Error("three-lambent: the light has a coefficient that is not a finite number");
       this.rotation.set(matrixOfQuaternion(assetFromWorld));
       this.rotation.apply(light.coefficients, whole, bands, 3);
       if (this.sun.shines) this.rotation.apply(this.sun.share(bands).coefficients, sun, bands, 3);
@@ -343,23 +446,13 @@ export class LambentAsset {
     if (shafts) this.air.lookForShafts(this.root, camera, this.sun.map.bounds, this.sun.map);
   }
 
-  private rtt(index: number): RttTexture {
-    let rtt = this.rtts.get(index);
-    if (!rtt) {
-      rtt = new RttTexture(this.description.rtts[index]);
-      this.rtts.set(index, rtt);
-    }
-    return rtt;
-  }
-
   /** What a lost context took along, or another renderer has, is made again from the file's bytes. */
   private follow(renderer: WebGLRenderer): void {
     const canvas = renderer.domElement as EventTarget;
     if (this.lost?.canvas === canvas) return;
     const listener = () => {
+      this.source.forget(renderer);
       for (const mesh of this.relit) mesh.forget();
-      for (const rtt of this.rtts.values()) rtt.dispose();
-      this.rtts.clear();
       this.sun.map.forget();
       this.mirrors.forget();
       this.done = "";
@@ -372,24 +465,52 @@ export class LambentAsset {
     this.lost = { canvas, listener };
   }
 
-  /** Frees all geometries, materials, textures and targets, and takes the root out of its scene. */
+  /**
+   * Frees materials, textures and targets, and takes the root out of its scene; the last instance
+   * of an asset also its geometries, textures and stored transfer.
+   */
   dispose(): void {
+    if (this.disposed) return;
+    this.disposed = true;
+    for (const mesh of this.relit) mesh.dispose();
+    this.freeOwn();
+    this.source.release();
+    this.root.removeFromParent();
+    delete (this.root as Partial<Object3D>).clone;
+    assets.delete(this.root);
+  }
+
+  /** Once somebody has disposed of all materials; what is used again comes back. */
+  private freeRest(): void {
+    if (this.relit.some((mesh) => mesh.isBuilt)) return;
+    this.freeOwn();
+    for (const { source } of this.relit) source.freeGeometries();
+    this.done = "";
+  }
+
+  private freeOwn(): void {
     this.lost?.canvas.removeEventListener("webglcontextrestored", this.lost.listener);
     this.lost = null;
-    for (const mesh of this.relit) {
-      mesh.dispose();
-      disposeMaterial(mesh.original);
-    }
-    for (const rtt of this.rtts.values()) rtt.dispose();
-    this.rtts.clear();
     this.environment.dispose();
     this.sun.map.dispose();
     this.mirrors.forget();
     this.screen.dispose();
-    this.root.removeFromParent();
-    assets.delete(this.root);
   }
 }
+
+/** What a clone takes from what it was cloned from. */
+const kSettings = [
+  "transfer",
+  "macro",
+  "viewDependent",
+  "filter",
+  "lobeExponent",
+  "softLobes",
+  "mirrorSize",
+  "unlit",
+  "samples",
+  "sample",
+] as const;
 
 const translation = new Vector3();
 const rotation = new Quaternion();
@@ -398,14 +519,3 @@ const scale = new Vector3();
 /** The largest of the channels' means over all directions. */
 const meanRadiance = (light: ArrayLike<number>) =>
   Math.max(Math.abs(light[0]), Math.abs(light[1]), Math.abs(light[2])) / Math.sqrt(4 * Math.PI);
-
-/** A loaded material with its textures; pictures that the browser decoded are closed. */
-function disposeMaterial(material: Material): void {
-  for (const value of Object.values(material)) {
-    if (!(value instanceof Texture)) continue;
-    value.dispose();
-    const image = value.image as { close?: () => void } | null;
-    image?.close?.();
-  }
-  material.dispose();
-}

@@ -15,6 +15,18 @@ import type {
  */
 export type TransferChoice = "best" | "unshadowed" | "shadowed" | "interreflected";
 
+const kChoices: readonly TransferChoice[] = ["best", "unshadowed", "shadowed", "interreflected"];
+
+/** @throws RangeError for what is no choice */
+export function checkTransfer(choice: TransferChoice): TransferChoice {
+  if (!kChoices.includes(choice))
+    throw new RangeError(
+      `three-lambent: no transfer "${String(choice)}": ${kChoices.slice(0, 3).join(", ")} or ` +
+        kChoices[3],
+    );
+  return choice;
+}
+
 function holds(asset: AssetDescription, mesh: PrimitiveTransfer, kind: TransferKind): boolean {
   if (kind === "unshadowed") return true;
   if (mesh.biScale) return mesh.biScale[kind] !== null;

@@ -38,9 +38,9 @@ export function kindsOf(meshes: readonly RelitMesh[]): Set<AssetKind> {
 
 export function infoOf(description: AssetDescription, meshes: readonly RelitMesh[]): AssetInfo {
   let [vertices, triangles, receivers, transferBytes] = [0, 0, 0, 0];
-  for (const { mesh, transfer } of meshes) {
-    const { index } = mesh.geometry;
-    const { count } = mesh.geometry.getAttribute("position");
+  for (const { source, transfer } of meshes) {
+    const { index } = source.geometry;
+    const { count } = source.geometry.getAttribute("position");
     vertices += count;
     triangles += (index ? index.count : count) / 3;
     receivers += transfer?.receivers ?? 0;

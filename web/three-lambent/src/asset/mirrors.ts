@@ -1,9 +1,17 @@
 // What the mirrors of an asset show of it: captures of all other surfaces as they are lit, one for each
 // mirror. They lie in the asset's frame: a camera does not change them, nor a turn but by the light.
 
-import { Matrix4, Mesh, Scene, Vector2, Vector3, type Box3, type WebGLRenderer } from "three";
+import {
+  Matrix3,
+  Mesh,
+  Scene,
+  Vector2,
+  Vector3,
+  type Box3,
+  type Matrix4,
+  type WebGLRenderer,
+} from "three";
 import { LocalCapture } from "../gpu/local-capture.js";
-import type { RelitMaterial } from "../materials/relit-material.js";
 import type { RelitMesh } from "./relit-mesh.js";
 
 /** Mirrors with a capture of their own, the largest ones; others look into the nearest. */
@@ -11,9 +19,9 @@ const kMostCaptures = 8;
 /** What is nearer to a capture's place is not in it, in diagonals of the mirror. */
 const kNear = 0.01;
 
-const boxOf = ({ plain }: RelitMesh): Box3 => {
-  if (!plain.boundingBox) plain.computeBoundingBox();
-  return plain.boundingBox!;
+const boxOf = ({ source: { geometry } }: RelitMesh): Box3 => {
+  if (!geometry.boundingBox) geometry.computeBoundingBox();
+  return geometry.boundingBox!;
 };
 const diagonalOf = (box: Box3) => box.getSize(new Vector3()).length();
 const centreOf = (mesh: RelitMesh) => boxOf(mesh).getCenter(new Vector3());
@@ -35,6 +43,7 @@ interface Captured {
 /** Of src/glsl/captured.glsl. */
 export const capturedUniforms = () => ({
   capturing: { value: false },
+  worldFromAsset: { value: new Matrix3() }, // a turn
   captureScale: { value: new Vector2(1, 1) },
 });
 
@@ -44,7 +53,6 @@ export class Mirrors {
   private readonly captured: Captured[] = [];
   private readonly scene = new Scene();
   private readonly copies: Mesh[] = [];
-  private worldFromAsset = new Matrix4();
   private done = "";
 
   /**
@@ -66,13 +74,8 @@ export class Mirrors {
         this.captured.push({ capture: captureAt(mesh, bounds), mirrors: [mesh] });
       else this.nearest(centreOf(mesh)).mirrors.push(mesh);
     this.scene.matrixWorldAutoUpdate = false;
-    for (const _ of meshes) {
-      const copy = new Mesh();
-      copy.onBeforeRender = (renderer, _scene, camera, _geometry, material) =>
-        (material as RelitMaterial).lookAround(renderer, camera, this.worldFromAsset);
-      this.copies.push(copy);
-      this.scene.add(copy);
-    }
+    for (const _ of meshes) this.copies.push(new Mesh());
+    this.scene.add(...this.copies);
   }
 
   private nearest(to: Vector3): Captured {
@@ -96,9 +99,10 @@ export class Mirrors {
     size: number,
     radiance: number,
   ): void {
-    const { capturing, captureScale } = this.uniforms;
+    const { capturing, captureScale, worldFromAsset: turn } = this.uniforms;
     captureScale.value.x = radiance > 0 ? 2 ** -Math.round(Math.log2(radiance)) : 1;
-    this.worldFromAsset = worldFromAsset;
+    const scale = worldFromAsset.getMaxScaleOnAxis();
+    turn.value.setFromMatrix4(worldFromAsset).multiplyScalar(1 / scale);
     for (const { mirrors } of this.captured) for (const mirror of mirrors) mirror.lookInto(null);
     capturing.value = true;
     try {
@@ -113,10 +117,10 @@ export class Mirrors {
 
   private drawOne(renderer: WebGLRenderer, { capture, mirrors }: Captured, size: number): void {
     this.meshes.forEach((each, i) => {
-      const { geometry, material, visible } = each.mesh;
+      const { geometry, visible } = each.mesh;
       Object.assign(this.copies[i], {
         geometry,
-        material,
+        material: each.material,
         visible: visible && each !== mirrors[0],
       });
     });

@@ -1,47 +1,43 @@
-// One mesh of an asset: its transfer on the GPU, its material, and which of both a choice wants.
+// One mesh of one instance of an asset: its lit transfer on the GPU, its material, and which of
+// both a choice wants.
 
 import {
   BufferAttribute,
-  BufferGeometry,
-  DataTexture,
-  FrontSide,
-  NearestFilter,
-  RGIntegerFormat,
-  UnsignedShortType,
   Vector3,
   type CubeTexture,
   type IUniform,
-  type Material,
   type Mesh,
+  type Object3D,
+  type Scene,
   type Texture,
   type WebGLRenderer,
 } from "three";
-import type {
-  AssetDescription,
-  Numbers,
-  PrimitiveTransfer,
-  Vectors,
-} from "../format/description.js";
+import type { AssetDescription, Numbers, PrimitiveTransfer } from "../format/description.js";
 import type { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { LitTexture } from "../gpu/lit-texture.js";
-import { kGroupsAFetch, kNumbersOf, type RttTexture } from "../gpu/rtt-texture.js";
-import { TransferPass, TurnPass, type LightPass } from "../gpu/transfer-pass.js";
-import type { AirMode } from "../materials/air-source.js";
-import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
-import { coverageUniforms, hasGaps, type Coverage } from "../materials/coverage.js";
-import { incidentGroups } from "../materials/group-macros.js";
+import { kGroupsAFetch, kNumbersOf, RttTexture } from "../gpu/rtt-texture.js";
+import { Lease } from "../gpu/shared.js";
 import {
-  makePatchMaterial,
-  makeSurfaceMaterial,
-  type RelitMaterial,
-} from "../materials/relit-material.js";
-import { bandOf, evaluateHarmonics } from "../sh/basis.js";
+  TransferPass,
+  TransferRows,
+  TurnFrames,
+  TurnPass,
+  type LightPass,
+  type MatrixShape,
+} from "../gpu/transfer-pass.js";
+import type { AirMode } from "../materials/air-source.js";
+import { coverageUniforms, hasGaps, type Coverage } from "../materials/coverage.js";
+import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
+import { incidentGroups } from "../materials/group-macros.js";
+import { RelitMaterial, type RelitShaders } from "../materials/relit-material.js";
+import { patchShaders, surfaceShaders } from "../materials/relit-shaders.js";
+import { bandOf } from "../sh/basis.js";
 import { leastSofteningOfZonal } from "../sh/window.js";
-import { clampedCosineMoments, phongLobeMoments } from "../sh/zonal.js";
+import { phongLobeMoments } from "../sh/zonal.js";
+import type { AssetSource } from "./asset-source.js";
 import { kindOf, macroOf, type TransferChoice } from "./choices.js";
-import type { Reflectance } from "./reflectance.js";
+import type { MeshSource } from "./mesh-source.js";
 import { kindWithoutBounces } from "./sharp-sun.js";
-import { hasBacks } from "./two-sides.js";
 
 /** What somebody wants to see. */
 export interface Choices {
@@ -72,22 +68,22 @@ export interface Lights {
   lobes: Float64Array;
 }
 
-/** How incident light comes to the fragments: interpolated, or fetched at the triangle's corners. */
-export type IncidentMode = "auto" | "varyings" | "fetch";
-
-/** What all meshes of an asset share. */
+/** What all meshes of an instance share. */
 export interface Shared {
-  description: AssetDescription;
+  source: AssetSource;
   environment: EnvironmentUniforms;
   air: Record<string, IUniform>;
   captured: Record<string, IUniform>;
-  incident: IncidentMode;
-  /** On the GPU when first asked for. */
-  rtt(index: number): RttTexture;
+  /** Of the Sun. */
+  sun: Record<string, IUniform>;
+  /** Before a mesh, or another one with its material, is drawn. */
+  drawn(mesh: RelitMesh, scene: Scene, object: Object3D): void;
+  /** After somebody else disposed of a material. */
+  disposed(): void;
 }
 
-// Besides the light: position and u, normal and v, colour or tangent, diffuse radiance.
-const kOtherVaryings = 5;
+// Besides the light: position and u, normal and v, colour or tangent, diffuse radiance, depths.
+const kOtherVaryings = 6;
 
 interface Lit {
   texture: LitTexture;
@@ -100,18 +96,10 @@ interface Lit {
 }
 
 export class RelitMesh {
+  readonly material: RelitMaterial;
   private built = "";
   private lits: Lit[] = [];
-  private material: RelitMaterial | null = null;
-  private idMap: DataTexture | null = null;
-  private expanded: BufferGeometry | null = null;
-  private readonly geometry: BufferGeometry;
-  private readonly map: Texture | null;
-  private readonly backs: boolean;
-  /** What the loader gave the mesh. */
-  readonly original: Material;
-  /** Of the asset's Sun. */
-  sunUniforms: Record<string, IUniform> = {};
+  private lease: Lease | null = null;
   /** Of shaders/local_capture.glsl. */
   private readonly captureUniforms = {
     capture: { value: null as CubeTexture | null },
@@ -121,97 +109,96 @@ export class RelitMesh {
   /** Whether something hides a sharp Sun from what is shown. */
   needsSunMap = false;
 
+  /** @param mesh what is drawn: it takes geometry and material from here */
   constructor(
     readonly mesh: Mesh,
-    readonly transfer: PrimitiveTransfer | null,
-    private readonly reflectance: Reflectance,
+    readonly source: MeshSource,
     private readonly shared: Shared,
-    readonly coverage: Coverage,
-    private readonly number: number,
   ) {
-    this.geometry = mesh.geometry;
-    this.original = mesh.material as Material;
-    this.backs = hasBacks(mesh.geometry);
-    this.map = (this.original as { map?: Texture | null }).map ?? null;
-    mesh.onBeforeRender = (renderer, _scene, camera, _geometry, material) => {
-      if (material === this.material) this.material.look(renderer, camera, mesh);
+    this.material = RelitMaterial.of(source.original, source.culled);
+    this.material.drawn = (scene, object) => shared.drawn(this, scene, object);
+    this.material.disposed = () => {
+      this.forget();
+      shared.disposed();
     };
-    mesh.material = this.black();
+    mesh.geometry = source.geometry;
+    mesh.material = this.material;
   }
 
-  /** Its triangles, as the loader made them. */
-  get plain(): BufferGeometry {
-    return this.geometry;
+  get transfer(): PrimitiveTransfer | null {
+    return this.source.transfer;
   }
 
-  get texture(): Texture | null {
-    return this.uv ? this.map : null;
+  get coverage(): Coverage {
+    return this.source.coverage;
   }
 
   get isMirror(): boolean {
-    return Math.max(...this.reflectance.mirror) > 0;
+    return this.source.isMirror;
   }
 
-  /** Until the first update() there is no light. */
-  private black(): RelitMaterial {
-    this.material = makeSurfaceMaterial(
-      { kind: "black", map: null, colored: false, uv: false },
-      {},
-    );
-    return this.material;
+  /** Whether anything of it is on the GPU. */
+  get isBuilt(): boolean {
+    return this.built !== "";
   }
 
-  private get colored(): boolean {
-    return this.geometry.hasAttribute("color");
-  }
-
-  private get uv(): boolean {
-    return this.geometry.hasAttribute("uv");
+  private get description(): AssetDescription {
+    return this.shared.source.description;
   }
 
   /** Makes what the choices need, if it is not there. @returns whether light is due again */
   prepare(renderer: WebGLRenderer, choices: Choices): boolean {
-    const { transfer, shared } = this;
-    const kind = transfer ? kindOf(shared.description, transfer, choices.transfer) : "";
+    const { transfer, description } = this;
+    const kind = transfer ? kindOf(description, transfer, choices.transfer) : "";
     const patch = transfer?.biScale ? `${choices.macro} ${choices.filter}` : "";
     const key = choices.unlit
       ? "unlit"
       : `${kind} ${patch} ${choices.sun} ${choices.air} ${choices.captured}`;
     const fresh = key !== this.built;
     if (fresh) {
-      this.release();
-      this.build(renderer, choices);
+      // What is still wanted is not made again.
+      const before = this.lease;
+      this.freeLits();
+      this.lease = new Lease(this.shared.source.thingsOn(renderer));
+      try {
+        this.material.wear(this.build(renderer, choices));
+      } finally {
+        before?.release();
+      }
       this.built = key;
     }
-    const material = this.material!;
-    material.samples = choices.samples;
-    material.sample = choices.sample;
-    if (material.uniforms.viewDependent)
-      material.uniforms.viewDependent.value = choices.viewDependent;
+    const { viewDependent, veil } = this.material.uniforms;
+    this.material.shaders!.samples = choices.samples;
+    if (viewDependent) viewDependent.value = choices.viewDependent;
+    if (veil) veil.value[1] = choices.sample;
     return fresh;
   }
 
-  private build(renderer: WebGLRenderer, choices: Choices): void {
-    const { transfer, reflectance, map, colored, uv, shared } = this;
-    const gaps = hasGaps(this.coverage);
+  private build(renderer: WebGLRenderer, choices: Choices): RelitShaders {
+    const { source, transfer, shared } = this;
+    const { reflectance, map, colored, uv } = source;
+    const gaps = hasGaps(source.coverage);
     const plain = { map, colored, uv, gaps };
     const { air, captured } = choices;
-    const covered = gaps ? coverageUniforms(this.coverage, this.number) : {};
-    const uniforms = { ...covered, ...this.surroundings(choices) };
+    const covered = gaps ? coverageUniforms(source.coverage, source.number) : {};
+    const around = { ...covered, ...this.surroundings(choices) };
     if (choices.unlit) {
-      this.show(makeSurfaceMaterial({ kind: "unlit", ...plain }, covered));
-      this.material!.uniforms.reflectance.value.set(...reflectance.base);
-    } else if (this.isMirror) {
-      Object.assign(uniforms, shared.environment.uniforms, this.captureUniforms);
-      this.show(makeSurfaceMaterial({ kind: "mirror", ...plain, air, captured }, uniforms));
-      this.material!.uniforms.reflectance.value.set(...reflectance.mirror);
-    } else if (transfer?.biScale) {
-      this.buildPatch(renderer, choices);
-    } else if (transfer && (transfer.vectors || transfer.matrices)) {
-      this.buildSurface(renderer, transfer, choices);
-    } else {
-      this.show(makeSurfaceMaterial({ kind: "black", ...plain, air, captured }, uniforms));
+      const uniforms = { ...covered, reflectance: { value: new Vector3(...reflectance.base) } };
+      return surfaceShaders({ kind: "unlit", ...plain }, uniforms);
     }
+    if (source.isMirror) {
+      const uniforms = {
+        ...around,
+        ...shared.environment.uniforms,
+        ...this.captureUniforms,
+        reflectance: { value: new Vector3(...reflectance.mirror) },
+      };
+      return surfaceShaders({ kind: "mirror", ...plain, air, captured }, uniforms);
+    }
+    if (transfer?.biScale) return this.buildPatch(renderer, choices);
+    if (transfer && (transfer.vectors || transfer.matrices))
+      return this.buildSurface(renderer, transfer, choices, around);
+    return surfaceShaders({ kind: "black", ...plain, air, captured }, around);
   }
 
   /** Of what the asset is seen through, and by. */
@@ -230,55 +217,62 @@ export class RelitMesh {
     if (capture) u.captureFrom.value.copy(capture.from);
   }
 
-  private show(material: RelitMaterial): void {
-    this.material?.dispose();
-    this.material = material;
-    material.name = this.original.name;
-    if (this.backs) material.side = FrontSide;
-    this.mesh.material = material;
-  }
-
-  private get what(): string {
-    return `mesh "${this.mesh.name}"`;
+  /** Stored numbers, which all instances read, and what a pass makes of them here. */
+  private add(
+    renderer: WebGLRenderer,
+    what: { name: string; numbers: () => Numbers; shape: MatrixShape; rows: number },
+    rest: Partial<Omit<Lit, "texture" | "pass">> = {},
+    reflectance: readonly [number, number, number] = [1, 1, 1],
+  ): LitTexture {
+    const { key, what: mesh } = this.source;
+    const texture = new LitTexture(renderer, this.transfer!.receivers, what.rows, mesh);
+    const stored = this.lease!.take(
+      `${key} ${what.name}`,
+      () => new TransferRows(what.numbers(), what.shape.columns, mesh),
+    );
+    const pass = new TransferPass(stored, what.shape, texture, reflectance);
+    this.lits.push({ texture, pass, glossy: false, scales: null, light: "whole", ...rest });
+    return texture;
   }
 
   private buildSurface(
     renderer: WebGLRenderer,
     transfer: PrimitiveTransfer,
     choices: Choices,
-  ): void {
-    const { description } = this.shared;
+    uniforms: Record<string, IUniform>,
+  ): RelitShaders {
+    const { description, source } = this;
+    const { grid } = transfer;
     const kind = kindOf(description, transfer, choices.transfer);
     const unshadowed = kind === "unshadowed" && description.transfer !== "unshadowed";
-    const from =
-      kind === "shadowed" && description.transfer !== kind ? transfer.shadowed : transfer;
-    const gaps = hasGaps(this.coverage);
-    const uniforms: Record<string, IUniform> = gaps
-      ? coverageUniforms(this.coverage, this.number)
-      : {};
+    const kept = kind === "shadowed" && description.transfer !== kind;
+    const from = kept ? transfer.shadowed : transfer;
+    const name = unshadowed ? "unshadowed" : kept ? "shadowed" : "stored";
     const direct = choices.sun ? kindWithoutBounces(description, transfer, choices.transfer) : null;
-    const { receivers, grid } = transfer;
     let albedoOutside = false;
     if (transfer.vectors && from?.vectors) {
-      const vectors = unshadowed
-        ? this.unshadowedVectors(transfer, transfer.vectors)
-        : from.vectors;
-      albedoOutside = vectors.albedoOutside;
-      const texture = new LitTexture(renderer, receivers, 1, this.what);
-      const shape = { rows: 1, columns: vectors.bands ** 2, channels: vectors.channels };
-      const pass = new TransferPass(vectors.numbers, shape, texture, [1, 1, 1], this.what);
+      const stored = unshadowed ? transfer.vectors : from.vectors;
+      albedoOutside = unshadowed ? source.unshadowedOutside(stored) : stored.albedoOutside;
+      const channels = unshadowed ? 3 : stored.channels;
+      const shape = { rows: 1, columns: stored.bands ** 2, channels };
+      const numbers = () =>
+        unshadowed ? source.unshadowedVectors(transfer, stored) : stored.numbers;
       const light = direct === kind ? "withoutSun" : "whole";
-      this.lits.push({ texture, pass, glossy: false, scales: null, light });
-      uniforms.diffuseLit = { value: texture.target.texture };
-      uniforms.diffuseALine = { value: texture.receiversALine };
+      const lit = this.add(
+        renderer,
+        { name: `${name} vectors`, numbers, shape, rows: 1 },
+        { light },
+      );
+      uniforms.diffuseLit = { value: lit.target.texture };
+      uniforms.diffuseALine = { value: lit.receiversALine };
     }
     if (direct) {
-      Object.assign(uniforms, this.sunUniforms, {
-        sunReflectance: { value: new Vector3(...this.reflectance.diffuse) },
+      Object.assign(uniforms, this.shared.sun, {
+        sunReflectance: { value: new Vector3(...source.reflectance.diffuse) },
       });
       this.needsSunMap = direct !== "unshadowed";
     }
-    const apart = direct && direct !== kind;
+    const apart = direct !== null && direct !== kind;
     if (apart) uniforms.sunLit = { value: this.buildSunShare(renderer, transfer) };
     let lobeBands = 0;
     if (transfer.matrices && from?.matrices) {
@@ -286,69 +280,74 @@ export class RelitMesh {
       lobeBands = matrices.outBands;
       const rows = lobeBands ** 2;
       const columns = matrices.inBands ** 2;
-      const texture = new LitTexture(renderer, receivers, rows, this.what);
-      const numbers = unshadowed ? identity(rows, columns) : matrices.numbers;
       const channels = unshadowed ? 1 : matrices.channels;
       const shape = { rows, columns, channels, shared: unshadowed };
-      const pass = new TransferPass(numbers, shape, texture, matrices.glossy, this.what);
-      this.lits.push({ texture, pass, glossy: true, scales: null, light: "lobes" });
-      uniforms.incidentLit = { value: texture.target.texture };
-      uniforms.incidentALine = { value: texture.receiversALine };
+      const numbers = () => (unshadowed ? identity(rows, columns) : matrices.numbers);
+      const lit = this.add(
+        renderer,
+        { name: `${name} matrices`, numbers, shape, rows },
+        { glossy: true, light: "lobes" },
+        matrices.glossy,
+      );
+      uniforms.incidentLit = { value: lit.target.texture };
+      uniforms.incidentALine = { value: lit.receiversALine };
     }
-    Object.assign(uniforms, this.surroundings(choices));
     if (grid) uniforms.grid = { value: Int32Array.of(grid.width, grid.height) };
     const fetch = !grid && lobeBands > 0 && this.mustFetch(renderer, lobeBands ** 2);
-    this.mesh.geometry = fetch ? this.expand() : this.geometry;
-    const { map, colored, uv } = this;
+    this.mesh.geometry = fetch ? source.expanded() : source.geometry;
+    const { map, colored, uv } = source;
     const shape = {
       kind: transfer.layout,
       diffuse: uniforms.diffuseLit !== undefined,
       sun: direct && (direct === "unshadowed" ? ("open" as const) : ("hidden" as const)),
-      sunShare: apart !== null && apart,
+      sunShare: apart,
       air: choices.air,
       captured: choices.captured,
-      ...{ albedoOutside, lobeBands, fetch, map, colored, uv, gaps },
+      ...{ albedoOutside, lobeBands, fetch, map, colored, uv },
+      gaps: hasGaps(source.coverage),
       texelUv: grid?.texCoord === 1,
     };
-    this.show(makeSurfaceMaterial(shape, uniforms));
+    return surfaceShaders(shape, uniforms);
   }
 
   /** What shadowed transfer, which is held beside what is shown, makes of the Sun's harmonics. */
   private buildSunShare(renderer: WebGLRenderer, transfer: PrimitiveTransfer): Texture {
     const { numbers, bands, channels } = transfer.shadowed!.vectors!;
-    const texture = new LitTexture(renderer, transfer.receivers, 1, this.what);
     const shape = { rows: 1, columns: bands ** 2, channels };
-    const pass = new TransferPass(numbers, shape, texture, [1, 1, 1], this.what);
-    this.lits.push({ texture, pass, glossy: false, scales: null, light: "sun" });
-    return texture.target.texture;
+    const what = { name: "shadowed vectors", numbers: () => numbers, shape, rows: 1 };
+    return this.add(renderer, what, { light: "sun" }).target.texture;
   }
 
-  private buildPatch(renderer: WebGLRenderer, choices: Choices): void {
-    const { description, rtt: rttOf } = this.shared;
+  private buildPatch(renderer: WebGLRenderer, choices: Choices): RelitShaders {
+    const { description, source } = this;
+    const lease = this.lease!;
     const transfer = this.transfer!;
     const biScale = transfer.biScale!;
     const rtt = description.rtts[biScale.rtt];
-    const rttTexture = rttOf(biScale.rtt);
+    const rttTexture = lease.take(`rtt ${biScale.rtt}`, () => new RttTexture(rtt));
     const rows = rtt.bands ** 2;
-    const texture = new LitTexture(renderer, transfer.receivers, rows, this.what);
+    const scales = rttTexture.scales();
     const macro = macroOf(description, transfer, choices.transfer, choices.macro);
-    let pass: LightPass;
+    let texture: LitTexture;
     if (macro) {
       const columns = biScale.bands ** 2;
       const shape = { rows: columns, columns, channels: macro.channels };
-      pass = new TransferPass(macro.numbers, shape, texture, [1, 1, 1], this.what);
+      const name = macro === biScale.shadowed ? "shadowed macro" : "macro";
+      texture = this.add(renderer, { name, numbers: () => macro.numbers, shape, rows }, { scales });
     } else {
-      pass = new TurnPass(this.normals(), biScale.tangents, rtt.bands, texture, this.what);
+      texture = new LitTexture(renderer, transfer.receivers, rows, source.what);
+      const frames = lease.take(
+        `${source.key} frames`,
+        () => new TurnFrames(source.normals(), biScale.tangents, rtt.bands, source.what),
+      );
+      const pass = new TurnPass(frames, texture);
+      this.lits.push({ texture, pass, glossy: false, scales, light: "whole" });
     }
-    this.lits.push({
-      ...{ texture, pass, glossy: false, scales: rttTexture.scales() },
-      light: "whole",
-    });
 
     const fetch = this.mustFetch(renderer, rows);
-    if (!this.geometry.hasAttribute("lambentTangent"))
-      this.geometry.setAttribute("lambentTangent", new BufferAttribute(biScale.tangents, 3));
-    this.mesh.geometry = fetch ? this.expand() : this.geometry;
+    if (!source.geometry.hasAttribute("lambentTangent"))
+      source.geometry.setAttribute("lambentTangent", new BufferAttribute(biScale.tangents, 3));
+    this.mesh.geometry = fetch ? source.expanded() : source.geometry;
     const uniforms: Record<string, IUniform> = {
       incidentLit: { value: texture.target.texture },
       incidentALine: { value: texture.receiversALine },
@@ -360,8 +359,8 @@ export class RelitMesh {
       levels: { value: rttTexture.levels },
     };
     if (biScale.idMap) {
-      this.idMap = idMapTexture(biScale.idMap, renderer, this.what);
-      uniforms.idMap = { value: this.idMap };
+      const idMap = lease.take(`${source.key} ids`, () => source.idMapTexture(renderer));
+      uniforms.idMap = { value: idMap };
       const each = rtt.size.map((size) => 1 / (size * biScale.scale));
       uniforms.periodsPerMetre = { value: Float32Array.from(each) };
     } else {
@@ -378,76 +377,13 @@ export class RelitMesh {
       air: choices.air,
       captured: choices.captured,
     };
-    Object.assign(uniforms, this.surroundings(choices));
-    this.show(makePatchMaterial(shape, uniforms));
+    return patchShaders(shape, { ...uniforms, ...this.surroundings(choices) });
   }
 
   private mustFetch(renderer: WebGLRenderer, coefficients: number): boolean {
-    const { incident } = this.shared;
+    const { incident } = this.shared.source;
     if (incident !== "auto") return incident === "fetch";
     return incidentGroups(coefficients) + kOtherVaryings > renderer.capabilities.maxVaryings;
-  }
-
-  /**
-   * Three vertices for each triangle, which know the numbers of all three: fragment shaders of
-   * WebGL2 are not told their triangle.
-   */
-  private expand(): BufferGeometry {
-    if (this.expanded) return this.expanded;
-    const { index } = this.geometry;
-    const expanded = index ? this.geometry.toNonIndexed() : this.geometry.clone();
-    const count = expanded.getAttribute("position").count;
-    const corners = new Uint32Array(3 * count);
-    for (let i = 0; i < count; ++i) {
-      const first = i - (i % 3);
-      for (let k = 0; k < 3; ++k) corners[3 * i + k] = index ? index.getX(first + k) : first + k;
-    }
-    expanded.setAttribute("lambentCorners", new BufferAttribute(corners, 3));
-    expanded.boundingBox = this.geometry.boundingBox;
-    expanded.boundingSphere = this.geometry.boundingSphere;
-    this.expanded = expanded;
-    return expanded;
-  }
-
-  private normals(): Float32Array {
-    const normal = this.geometry.getAttribute("normal");
-    const normals = new Float32Array(3 * normal.count);
-    for (let i = 0; i < normal.count; ++i)
-      normals.set([normal.getX(i), normal.getY(i), normal.getZ(i)], 3 * i);
-    return normals;
-  }
-
-  /**
-   * ρ/π Â_l y_i(N). Of a base colour that was baked in, COLOR_0 at vertices is kept inside; where a
-   * texture takes part it is multiplied per pixel.
-   */
-  private unshadowedVectors(transfer: PrimitiveTransfer, stored: Vectors): Vectors {
-    const { bands } = stored;
-    const n = bands * bands;
-    const normals = transfer.grid ? transfer.grid.normals : this.normals();
-    const textured = this.map !== null && this.uv;
-    const color =
-      !stored.albedoOutside && !transfer.grid && !textured && this.colored
-        ? this.geometry.getAttribute("color")
-        : null;
-    const cosine = clampedCosineMoments(bands);
-    const y = new Float64Array(n);
-    const data = new Float32Array(transfer.receivers * 3 * n);
-    const rho = new Vector3();
-    for (let p = 0; p < transfer.receivers; ++p) {
-      const [nx, ny, nz] = normals.subarray(3 * p, 3 * p + 3);
-      const length = Math.hypot(nx, ny, nz) || 1;
-      evaluateHarmonics(bands, nx / length, ny / length, nz / length, y);
-      rho.set(...this.reflectance.diffuse);
-      if (color) rho.multiply(new Vector3(color.getX(p), color.getY(p), color.getZ(p)));
-      for (let c = 0; c < 3; ++c) {
-        const factor = rho.getComponent(c) / Math.PI;
-        const to = (3 * p + c) * n;
-        for (let i = 0; i < n; ++i) data[to + i] = factor * cosine[bandOf(i)] * y[i];
-      }
-    }
-    const numbers: Numbers = { encoding: "float32", data, scales: null, run: 0 };
-    return { numbers, bands, channels: 3, albedoOutside: color === null };
   }
 
   relight(
@@ -470,29 +406,29 @@ export class RelitMesh {
     }
   }
 
-  /** What the choices made; not the mesh itself. */
-  private release(): void {
+  private freeLits(): void {
     for (const { texture, pass } of this.lits) {
       texture.dispose();
       pass.dispose();
     }
     this.lits = [];
     this.needsSunMap = false;
-    this.idMap?.dispose();
-    this.idMap = null;
   }
 
-  /** All of it is to be made again: the GPU has lost it. */
+  /** All of it is to be made again: the GPU has lost it, or it is not wanted. */
   forget(): void {
-    this.release();
+    if (!this.isBuilt) return;
+    this.freeLits();
+    this.lease?.release();
+    this.lease = null;
     this.built = "";
+    this.material.wear(null);
   }
 
   dispose(): void {
-    this.release();
-    this.material?.dispose();
-    this.geometry.dispose();
-    this.expanded?.dispose();
+    this.material.disposed = null;
+    this.forget();
+    this.material.dispose();
   }
 }
 
@@ -500,28 +436,4 @@ function identity(rows: number, columns: number): Numbers {
   const data = new Float32Array(rows * columns);
   for (let i = 0; i < Math.min(rows, columns); ++i) data[i * columns + i] = 1;
   return { encoding: "float32", data, scales: null, run: 0 };
-}
-
-function idMapTexture(
-  map: { width: number; height: number; ids: Uint16Array },
-  renderer: WebGLRenderer,
-  what: string,
-): DataTexture {
-  const most = renderer.capabilities.maxTextureSize;
-  if (map.width > most || map.height > most)
-    throw new Error(
-      `three-lambent: ${what}: an id map of ${map.width}×${map.height} texels, but this device ` +
-        `takes ${most} a side: make it smaller`,
-    );
-  const texture = new DataTexture(
-    map.ids as Uint16Array<ArrayBuffer>,
-    map.width,
-    map.height,
-    RGIntegerFormat,
-    UnsignedShortType,
-  );
-  texture.internalFormat = "RG16UI";
-  texture.minFilter = texture.magFilter = NearestFilter;
-  texture.needsUpdate = true;
-  return texture;
 }

@@ -4,11 +4,13 @@
 
 import { Matrix4, Quaternion, Vector3, type Camera, type Object3D, type WebGLRenderer } from "three";
 import type { AssetDescription, PrimitiveTransfer, TransferKind } from "../format/description.js";
+import { ordinaryProjection } from "../gpu/depth.js";
 import { SunMap } from "../gpu/sun-map.js";
 import { LambentLight, type Disc } from "../light/light.js";
 import { kLargestSun, sunOf, sunPoints, type SunPoint } from "../light/sun.js";
 import { stateOf } from "../materials/uniform-state.js";
 import { kindOf, type TransferChoice } from "./choices.js";
+import type { MeshSource } from "./mesh-source.js";
 import type { RelitMesh } from "./relit-mesh.js";
 
 /**
@@ -62,10 +64,8 @@ export class SharpSun {
   private weights: readonly number[] = [];
   private points: SunPoint[] = [];
 
-  constructor(meshes: readonly RelitMesh[]) {
-    this.map = new SunMap(
-      meshes.map(({ plain, coverage, texture }) => ({ geometry: plain, coverage, texture })),
-    );
+  constructor(meshes: readonly MeshSource[]) {
+    this.map = new SunMap(meshes);
     this.uniforms = {
       sunDirection: { value: new Vector3(0, 1, 0) },
       sunIrradiance: { value: new Vector3() },
@@ -129,7 +129,7 @@ export class SharpSun {
         .clone()
         .invert()
         .multiply(root.matrixWorld)
-        .premultiply(camera.projectionMatrix);
+        .premultiply(ordinaryProjection(camera));
     }
     const { x, y, z } = this.uniforms.sunDirection.value;
     this.map.draw(renderer, [x, y, z], clipFromAsset);

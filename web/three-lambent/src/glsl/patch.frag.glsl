@@ -8,6 +8,7 @@
 // LAMBENT_CAPTURED 1 with captured.glsl, or 0.
 
 #include <common>
+#include <fog_pars_fragment>
 #include <logdepthbuf_pars_fragment>
 #include <clipping_planes_pars_fragment>
 
@@ -76,4 +77,5 @@ void main() {
 #endif
 #include <tonemapping_fragment>
 #include <colorspace_fragment>
+#include <fog_fragment>
 }

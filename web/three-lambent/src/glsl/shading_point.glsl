@@ -6,7 +6,21 @@ in vec4 positionU;
 in vec4 normalV;
 in vec3 vertexColor;
 
-uniform vec4 eye;  // position, 1; or, for an orthographic camera, direction to the viewer, 0
+uniform mat4 modelViewMatrix;
+uniform mat4 projectionMatrix;
+
+vec4 eye;  // position, 1; or, for an orthographic camera, direction to the viewer, 0
+
+// In the frame of whatever object is drawn: any number of objects may share a material.
+vec4 eyeOfObject() {
+  vec3 a = modelViewMatrix[0].xyz, b = modelViewMatrix[1].xyz, c = modelViewMatrix[2].xyz;
+  mat3 rows = mat3(cross(b, c), cross(c, a), cross(a, b));  // of the inverse, times its determinant
+  if (projectionMatrix[3][3] == 1.0) {
+    vec3 back = vec3(rows[0].z, rows[1].z, rows[2].z) * sign(dot(a, rows[0]));
+    return vec4(normalize(back), 0.0);
+  }
+  return vec4(-(modelViewMatrix[3].xyz * rows) / dot(a, rows[0]), 1.0);
+}
 
 struct ShadingPoint {
   vec3 position;
@@ -19,6 +33,7 @@ struct ShadingPoint {
 
 // To be called where all fragments of a quad come along: it takes derivatives.
 ShadingPoint shadingPoint() {
+  eye = eyeOfObject();
   ShadingPoint point;
   point.position = positionU.xyz;
   point.uv = vec2(positionU.w, normalV.w);

@@ -4,16 +4,31 @@
 // Before this text stand: #define LAMBENT_KIND 0 vertices, 1 texels, 2 mirror, 3 black, 4 unlit;
 // LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_FETCH, LAMBENT_ALBEDO_OUTSIDE; with glossy sh.glsl,
 // incident.glsl, incident_texture.glsl, lobe.glsl; shading_normal.glsl, shading_point.glsl;
-// base_color.glsl, with LAMBENT_ALPHA coverage.glsl, with a map base_color_map.glsl; for texels texel_receivers.glsl; LAMBENT_SUN (0: no
-// sharp Sun, else sun_light.glsl with what it wants), LAMBENT_SUN_SHARE; LAMBENT_AIR, with what
-// air_texels.glsl and air_behind.glsl say, or 0; for a mirror environment.glsl, environment_map.glsl;
-// LAMBENT_CAPTURED 1 with captured.glsl, and for a mirror local_capture.glsl, or 0.
+// base_color.glsl, with LAMBENT_ALPHA coverage.glsl, with a map base_color_map.glsl; for texels
+// texel_receivers.glsl; LAMBENT_SUN (0: no sharp Sun, else sun_light.glsl with what it wants),
+// LAMBENT_SUN_SHARE; LAMBENT_AIR, with what air_texels.glsl and air_behind.glsl say, or 0; for a
+// mirror environment.glsl, environment_map.glsl; LAMBENT_CAPTURED 1 with captured.glsl, and for a
+// mirror local_capture.glsl, or 0.
 
 #include <common>
+#include <fog_pars_fragment>
 #include <logdepthbuf_pars_fragment>
 #include <clipping_planes_pars_fragment>
 
 uniform vec3 reflectance;  // of a mirror, or the factor of an unlit surface
+
+#if LAMBENT_KIND == 2
+uniform mat4 modelMatrix;
+
+// Where a direction of the object points to in the world; in a capture, which is drawn in the
+// asset's own frame, as the asset stands.
+vec3 inWorld(vec3 direction) {
+#if LAMBENT_CAPTURED
+  if (capturing) return worldFromAsset * direction;
+#endif
+  return mat3(modelMatrix) * direction;
+}
+#endif
 
 #if LAMBENT_KIND == 0 && LAMBENT_DIFFUSE
 in vec3 diffuseRadiance;
@@ -74,7 +89,7 @@ void main() {
     met.rgb /= captureScale.x;
 #endif
     if (met.a < 1.0) {
-      vec3 shown = environmentRadiance(worldFromAsset * reflected);
+      vec3 shown = environmentRadiance(normalize(inWorld(reflected)));
 #if LAMBENT_AIR
       if (eye.w > 0.0) shown = seenBehindAir(point.position, reflected, shown);
 #endif
@@ -122,4 +137,5 @@ void main() {
 #endif
 #include <tonemapping_fragment>
 #include <colorspace_fragment>
+#include <fog_fragment>
 }

@@ -1,11 +1,13 @@
 // A relit surface. Vertices fetch what the transfer pass made for them by their number.
 //
 // Before this text stand: #define LAMBENT_VERTICES, LAMBENT_DIFFUSE, LAMBENT_GLOSSY, LAMBENT_PATCH,
-// LAMBENT_UV, LAMBENT_TEXEL_UV (texels lie by a second set of texture coordinates), LAMBENT_COLOR, LAMBENT_SUN_SHARE, LAMBENT_ALPHA (it may be there in parts alone),
-// LAMBENT_FETCH, each 0 or 1 (FETCH: the fragment shader fetches the light at the triangle's
-// corners, and vertices know their triangle); where they interpolate it incident_texture.glsl.
+// LAMBENT_UV, LAMBENT_TEXEL_UV (texels lie by a second set of texture coordinates), LAMBENT_COLOR,
+// LAMBENT_SUN_SHARE, LAMBENT_ALPHA (it may be there in parts alone), LAMBENT_FETCH, each 0 or 1
+// (FETCH: the fragment shader fetches the light at the triangle's corners, and vertices know their
+// triangle); where they interpolate it incident_texture.glsl.
 
 #include <common>
+#include <fog_pars_vertex>
 #include <logdepthbuf_pars_vertex>
 #include <clipping_planes_pars_vertex>
 
@@ -13,7 +15,7 @@
 attribute vec3 lambentTangent;
 out vec3 tangent_;
 #endif
-#if LAMBENT_TEXEL_UV
+#if LAMBENT_TEXEL_UV && !defined(USE_UV1)
 attribute vec2 uv1;
 #endif
 #if LAMBENT_KIND == 1
@@ -94,4 +96,5 @@ void main() {
   gl_Position = projectionMatrix * mvPosition;
 #include <logdepthbuf_vertex>
 #include <clipping_planes_vertex>
+#include <fog_vertex>
 }

@@ -2,7 +2,6 @@
 
 import {
   BufferGeometry,
-  Camera,
   Float32BufferAttribute,
   Mesh,
   Scene,
@@ -10,12 +9,13 @@ import {
   type WebGLRenderer,
   type WebGLRenderTarget,
 } from "three";
+import { PassCamera } from "./pass-camera.js";
 import { renderInto } from "./render-into.js";
 
 export class FullScreenPass {
   private readonly geometry = new BufferGeometry();
   private readonly scene = new Scene();
-  private readonly camera = new Camera();
+  private readonly camera = new PassCamera();
   private readonly mesh = new Mesh(this.geometry);
 
   constructor() {

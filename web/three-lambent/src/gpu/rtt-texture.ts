@@ -78,7 +78,7 @@ export class RttTexture {
   readonly texture: DataArrayTexture;
   readonly rows: Int32Array;
   /** width, height, first position, 0 for each of 16. */
-  readonly levels = new Int32Array(4 * kMostLevels);
+  readonly levels: Int32Array = new Int32Array(4 * kMostLevels);
   readonly levelCount: number;
 
   constructor(readonly rtt: RadianceTransferTexture) {

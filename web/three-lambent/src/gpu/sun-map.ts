@@ -5,11 +5,11 @@
 
 import {
   Box3,
-  Camera,
   DepthTexture,
   DoubleSide,
   FloatType,
   GLSL3,
+  GreaterDepth,
   LessDepth,
   Matrix3,
   Matrix4,
@@ -38,6 +38,8 @@ import {
 } from "../generated/shaders.js";
 import { worldFromTangent, type Vector } from "../light/frames.js";
 import { coverageUniforms, hasGaps, mapUniforms, type Coverage } from "../materials/coverage.js";
+import { reversesDepth } from "./depth.js";
+import { PassCamera } from "./pass-camera.js";
 import { renderInto } from "./render-into.js";
 
 /** Texels of a side, where the device takes as many. */
@@ -146,7 +148,7 @@ export class SunMap {
   };
   private target: WebGLRenderTarget | null = null;
   private readonly scene = new Scene();
-  private readonly camera = new Camera();
+  private readonly camera = new PassCamera();
   /** Of all that throws shadows. */
   readonly bounds = new Box3();
   private readonly material = new RawShaderMaterial({
@@ -196,12 +198,20 @@ export class SunMap {
     this.uniforms.sunMapFromWorld.value.copy(mapFromAsset);
     this.uniforms.sunFrameFromWorld.value.copy(frame);
     this.uniforms.sunMapScales.value.set(side, side, texel, range);
+    // The map itself is never reversed.
+    const reversed = reversesDepth(renderer);
     const clipFromMap = new Matrix4()
-      .makeTranslation(-1, -1, -1)
-      .scale(new Vector3(2 / side, 2 / side, 2));
+      .makeTranslation(-1, -1, reversed ? 0 : -1)
+      .scale(new Vector3(2 / side, 2 / side, reversed ? 1 : 2));
     this.material.uniforms.clipFromAsset.value.multiplyMatrices(clipFromMap, mapFromAsset);
-    for (const material of [this.material, ...this.gaps]) material.uniformsNeedUpdate = true;
+    for (const material of [this.material, ...this.gaps]) {
+      material.uniformsNeedUpdate = true;
+      material.depthFunc = reversed ? GreaterDepth : LessDepth;
+    }
+    const { depth } = renderer.state.buffers;
+    if (reversed) depth.setClear(0);
     renderInto(renderer, this.scene, this.camera, target, "depth");
+    if (reversed) depth.setClear(1);
     this.done = state;
   }
 

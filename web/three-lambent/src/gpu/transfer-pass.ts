@@ -25,7 +25,7 @@ import {
 } from "../generated/shaders.js";
 import type { FullScreenPass } from "./full-screen-pass.js";
 import type { LitTexture } from "./lit-texture.js";
-import { layoutUniform, textureOfRows } from "./row-texture.js";
+import { layoutUniform, textureOfRows, type RowLayout } from "./row-texture.js";
 import { turnSamples } from "./turn-samples.js";
 
 const kHeader = `precision highp float;
@@ -83,27 +83,42 @@ export interface MatrixShape {
   shared?: boolean;
 }
 
+/** Stored vectors or matrices on the GPU. */
+export class TransferRows {
+  readonly numbers: { texture: DataArrayTexture; layout: RowLayout };
+  readonly scales: { texture: DataArrayTexture; layout: RowLayout } | null;
+
+  /** @param columns of a row */
+  constructor({ data, scales }: Numbers, columns: number, what: string) {
+    this.numbers = textureOfRows(data, columns, what);
+    this.scales = scales && textureOfRows(scales, 1, what);
+  }
+
+  dispose(): void {
+    this.numbers.texture.dispose();
+    this.scales?.texture.dispose();
+  }
+}
+
 /** Results of stored vectors or matrices. */
 export class TransferPass implements LightPass {
-  private readonly textures: DataArrayTexture[] = [];
   private readonly material: RawShaderMaterial;
   private readonly light: Float32Array;
 
+  /** @param stored what it reads; others may read it too */
   constructor(
-    numbers: Numbers,
+    stored: TransferRows,
     private readonly shape: MatrixShape,
     private readonly lit: LitTexture,
     reflectance: readonly [number, number, number],
-    what: string,
   ) {
     const { rows, columns, channels } = shape;
+    const { numbers, scales } = stored;
     const quads = Math.ceil(columns / 4);
     this.light = new Float32Array(12 * quads);
-    const stored = textureOfRows(numbers.data, columns, what);
-    this.textures.push(stored.texture);
     const uniforms: Record<string, { value: unknown }> = {
-      numbers: { value: stored.texture },
-      numbersRows: { value: layoutUniform(stored.layout) },
+      numbers: { value: numbers.texture },
+      numbersRows: { value: layoutUniform(numbers.layout) },
       light: { value: this.light },
       factors: { value: null },
       reflectance: { value: new Vector3(...reflectance) },
@@ -111,9 +126,7 @@ export class TransferPass implements LightPass {
       receiversALine: { value: lit.receiversALine },
       step_: { value: shape.shared ? 0 : 1 },
     };
-    if (numbers.scales) {
-      const scales = textureOfRows(numbers.scales, 1, what);
-      this.textures.push(scales.texture);
+    if (scales) {
       uniforms.scales = { value: scales.texture };
       uniforms.scalesRows = { value: layoutUniform(scales.layout) };
     }
@@ -123,7 +136,7 @@ export class TransferPass implements LightPass {
 #define LAMBENT_STORED_ROWS ${rows}
 #define LAMBENT_QUADS ${quads}
 #define LAMBENT_CHANNELS ${channels}
-#define LAMBENT_SCALED ${numbers.scales ? 1 : 0}
+#define LAMBENT_SCALED ${scales ? 1 : 0}
 ${rowPlace}${transferFrag}${pack}${passMain}`,
       uniforms,
     );
@@ -141,48 +154,67 @@ ${rowPlace}${transferFrag}${pack}${passMain}`,
   }
 
   dispose(): void {
-    for (const texture of this.textures) texture.dispose();
     this.material.dispose();
   }
 }
 
-/** Light turned into the tangent frames of vertices, which nothing hides it from. */
-export class TurnPass implements LightPass {
-  private readonly textures: (DataArrayTexture | DataTexture)[] = [];
-  private readonly material: RawShaderMaterial;
-  private readonly light: Float32Array;
+/** Tangent frames of vertices on the GPU, and what turns light into them. */
+export class TurnFrames {
+  readonly normals: DataArrayTexture;
+  readonly tangents: DataArrayTexture;
+  readonly layout: RowLayout;
+  readonly samples: DataTexture;
 
   /** @param bands of the light; more of them are cut */
   constructor(
     normals: Float32Array,
     tangents: Float32Array,
-    bands: number,
-    private readonly lit: LitTexture,
+    readonly bands: number,
     what: string,
   ) {
-    this.light = new Float32Array(3 * bands * bands);
-    const samples = turnSamples(bands);
-    const frames = [normals, tangents].map((data) => textureOfRows(data, 3, what));
-    const turn = new DataTexture(
-      samples.texels as Float32Array<ArrayBuffer>,
-      samples.width,
+    const [first, second] = [normals, tangents].map((data) => textureOfRows(data, 3, what));
+    this.normals = first.texture;
+    this.tangents = second.texture;
+    this.layout = first.layout;
+    const { texels, width } = turnSamples(bands);
+    this.samples = new DataTexture(
+      texels as Float32Array<ArrayBuffer>,
+      width,
       bands * bands,
       RGBAFormat,
       FloatType,
     );
-    turn.minFilter = turn.magFilter = NearestFilter;
-    turn.needsUpdate = true;
-    this.textures.push(frames[0].texture, frames[1].texture, turn);
+    this.samples.minFilter = this.samples.magFilter = NearestFilter;
+    this.samples.needsUpdate = true;
+  }
+
+  dispose(): void {
+    for (const texture of [this.normals, this.tangents, this.samples]) texture.dispose();
+  }
+}
+
+/** Light turned into the tangent frames of vertices, which nothing hides it from. */
+export class TurnPass implements LightPass {
+  private readonly material: RawShaderMaterial;
+  private readonly light: Float32Array;
+
+  /** @param frames what it reads; others may read it too */
+  constructor(
+    frames: TurnFrames,
+    private readonly lit: LitTexture,
+  ) {
+    const { bands } = frames;
+    this.light = new Float32Array(3 * bands * bands);
     this.material = passMaterial(
       `#define LAMBENT_ROWS ${lit.rows}
 #define LAMBENT_TEXELS ${lit.texels}
 #define LAMBENT_BANDS ${bands}
 ${sh}${rowPlace}${tangentFrame}${turnFrag}${pack}${passMain}`,
       {
-        normals: { value: frames[0].texture },
-        tangents: { value: frames[1].texture },
-        frameRows: { value: layoutUniform(frames[0].layout) },
-        samples: { value: turn },
+        normals: { value: frames.normals },
+        tangents: { value: frames.tangents },
+        frameRows: { value: layoutUniform(frames.layout) },
+        samples: { value: frames.samples },
         light: { value: this.light },
         factors: { value: null },
         receivers: { value: lit.receivers },
@@ -203,7 +235,6 @@ ${sh}${rowPlace}${tangentFrame}${turnFrag}${pack}${passMain}`,
   }
 
   dispose(): void {
-    for (const texture of this.textures) texture.dispose();
     this.material.dispose();
   }
 }

@@ -1,285 +1,143 @@
-// The materials of relit surfaces. They write linear radiance; drawn onto the canvas, three's own
-// tone mapping and colour space follow, as for its own materials.
+// The material of a relit mesh: what the loader made of the file's, with other shaders. So it has
+// the file's name, colours and maps, whoever asks (exporters, fog, what disposes of a scene), and
+// is drawn as three would draw it until it has shaders of its own.
 
 import {
   DoubleSide,
-  Matrix3,
-  Matrix4,
-  ShaderMaterial,
-  Vector2,
-  Vector3,
+  FrontSide,
+  Material,
+  MeshStandardMaterial,
+  NoBlending,
   Vector4,
+  type BufferGeometry,
   type Camera,
+  type Color,
   type IUniform,
   type Object3D,
+  type Scene,
   type Texture,
+  type Vector2,
+  type WebGLProgramParametersWithUniforms,
   type WebGLRenderer,
 } from "three";
-import {
-  baseColor,
-  baseColorMap,
-  captured,
-  coverage,
-  incident,
-  incidentTexture,
-  lobe,
-  localCapture,
-  patchFrag,
-  patchPlace,
-  rowPlace,
-  rttFootprint,
-  rttLookUp,
-  rttResponse,
-  rttTexture,
-  sh,
-  shadingNormal,
-  shadingPoint,
-  sunLight,
-  sunShadow,
-  surfaceFrag,
-  surfaceVert,
-  tangentFrame,
-  texelReceivers,
-  viewSquare,
-} from "../generated/shaders.js";
-import { airSource, type AirMode } from "./air-source.js";
-import { mapUniforms } from "./coverage.js";
-import { environmentGlsl } from "./environment-uniforms.js";
-import { eachGroup, incidentGroups, responseMacros } from "./group-macros.js";
 
-/** LAMBENT_KIND of surface.frag.glsl. */
-export const kSurfaceKind = { vertices: 0, texels: 1, mirror: 2, black: 3, unlit: 4 } as const;
-
-/** What of a surface decides about its shaders. */
-export interface SurfaceShape {
-  kind: keyof typeof kSurfaceKind;
-  diffuse?: boolean;
-  albedoOutside?: boolean;
-  /** Bands of the lobe; 0: not glossy. */
-  lobeBands?: number;
-  /** The fragment shader fetches the light at the triangle's corners. */
-  fetch?: boolean;
-  /** A sharp Sun shines on it, and can be hidden; what is known of it is to be taken out. */
-  sun?: "open" | "hidden" | null;
-  sunShare?: boolean;
-  /** What it is seen through. */
-  air?: AirMode;
-  /** Mirrors see it; a mirror sees the asset. */
-  captured?: boolean;
-  /** It may be there in parts alone. */
-  gaps?: boolean;
-  map: Texture | null;
-  colored: boolean;
-  uv: boolean;
-  /** Texels lie by a second set of texture coordinates. */
-  texelUv?: boolean;
+/** Sources for three's preprocessor, and what they are told. */
+export interface RelitShaders {
+  vertex: string;
+  fragment: string;
+  uniforms: Record<string, IUniform>;
+  /** Sub-samples of a pixel that are added up: what is filtered is as much narrower. Default 1. */
+  samples?: number;
 }
 
-/** What of meso-structure decides about its shaders. */
-export interface PatchShape {
-  bands: number;
-  /** LAMBENT_NUMBERS of rtt_response.glsl, and groups of numbers in 16 bytes. */
-  numbers: 0 | 1 | 2;
-  groupsAFetch: number;
-  fetch: boolean;
-  filter: boolean;
-  idMap: boolean;
-  air: AirMode;
-  captured: boolean;
-}
+/** Programs are the same where their sources are: a number for each pair of them, from 1. */
+const numbers = new Map<string, number>();
 
-const flag = (value: unknown) => (value ? 1 : 0);
+const viewport = new Vector4();
 
-function defines(values: Record<string, string | number>): string {
-  return Object.entries(values)
-    .map(([name, value]) => `#define LAMBENT_${name} ${value}\n`)
-    .join("");
-}
+export class RelitMaterial extends MeshStandardMaterial {
+  /** @internal null: three's own. */
+  shaders: RelitShaders | null = null;
+  /** @internal Before an object is drawn with it. */
+  drawn: ((scene: Scene, object: Object3D) => void) | null = null;
+  /** @internal After somebody disposed of it. */
+  disposed: (() => void) | null = null;
+  private number = 0;
+  private readonly copies = new Set<WeakRef<RelitMaterial>>();
 
-/** What incident.glsl and incident_texture.glsl want before them. */
-function incidentDefines(coefficients: number, interpolated: boolean): string {
-  return defines({
-    GROUPS: incidentGroups(coefficients),
-    "EACH_GROUP(DO)": eachGroup(coefficients),
-    INTERPOLATED: flag(interpolated),
-    LIGHT_PLACE: "ivec2",
-  });
-}
-
-const inverse = new Matrix4();
-const vector = new Vector4();
-
-export class RelitMaterial extends ShaderMaterial {
-  override readonly type: string = "LambentRelitMaterial";
-  /** Sub-samples of a pixel that the caller adds up: what is filtered is as much narrower. */
-  samples = 1;
-  /** Which of them comes next. */
-  sample = 0;
-
-  constructor(vertex: string, fragment: string, uniforms: Record<string, IUniform>) {
-    super({
-      vertexShader: vertex,
-      fragmentShader: fragment,
-      uniforms: {
-        eye: { value: new Vector4() },
-        pixelWidth: { value: new Vector2() },
-        worldFromAsset: { value: new Matrix3() },
-        ...uniforms,
-      },
-      side: DoubleSide, // what is seen from behind is black, and hides what lies behind it
-      clipping: true,
-    });
+  /** @internal */
+  get uniforms(): Record<string, IUniform> {
+    return this.shaders?.uniforms ?? {};
   }
 
-  /** For a mesh's onBeforeRender: the eye, and how wide a pixel is, in the asset's frame. */
-  look(renderer: WebGLRenderer, camera: Camera, object: Object3D): void {
-    this.lookFrom(renderer, camera, inverse.copy(object.matrixWorld).invert(), this.samples);
-    this.place(object.matrixWorld);
+  /**
+   * A copy of what the loader made.
+   *
+   * @internal
+   * @param culled what faces away is not seen; else it is black, and hides what lies behind it
+   */
+  static of(original: Material, culled: boolean): RelitMaterial {
+    const made = new RelitMaterial();
+    if ((original as MeshStandardMaterial).isMeshStandardMaterial)
+      made.copy(original as RelitMaterial);
+    else {
+      Material.prototype.copy.call(made, original);
+      const { color, map } = original as { color?: Color; map?: Texture | null };
+      if (color) made.color.copy(color);
+      made.map = map ?? null;
+    }
+    made.side = culled ? FrontSide : DoubleSide;
+    // What is there in parts alone is cut out, or drawn in a share of the sub-samples.
+    made.blending = NoBlending;
+    made.depthWrite = true;
+    made.forceSinglePass = true;
+    return made;
   }
 
-  /** The same for a camera that stands in the asset's frame, and one picture alone. */
-  lookAround(renderer: WebGLRenderer, camera: Camera, worldFromAsset: Matrix4): void {
-    this.lookFrom(renderer, camera, inverse.identity(), 1);
-    this.place(worldFromAsset);
+  /** @internal */
+  wear(shaders: RelitShaders | null): void {
+    super.dispose(); // the program that it had
+    this.shaders = shaders;
+    this.number = 0;
+    if (shaders) {
+      const text = shaders.vertex + shaders.fragment;
+      this.number = numbers.get(text) ?? numbers.size + 1;
+      numbers.set(text, this.number);
+    }
+    this.needsUpdate = true;
+    for (const each of this.copies) {
+      const copy = each.deref();
+      if (copy) copy.wear(shaders);
+      else this.copies.delete(each);
+    }
   }
 
-  private lookFrom(
+  /** A copy of a relit material is lit with it. */
+  override copy(source: RelitMaterial): this {
+    super.copy(source);
+    if (!(source instanceof RelitMaterial)) return this;
+    source.copies.add(new WeakRef(this));
+    this.drawn = source.drawn;
+    this.wear(source.shaders);
+    return this;
+  }
+
+  override onBeforeCompile(program: WebGLProgramParametersWithUniforms): void {
+    if (!this.shaders) return;
+    program.vertexShader = this.shaders.vertex;
+    program.fragmentShader = this.shaders.fragment;
+    Object.assign(program.uniforms, this.shaders.uniforms);
+  }
+
+  override customProgramCacheKey(): string {
+    return `three-lambent ${this.number}`;
+  }
+
+  /** How wide a pixel is, in the frame of the object. */
+  override onBeforeRender(
     renderer: WebGLRenderer,
+    scene: Scene,
     camera: Camera,
-    assetFromCameras: Matrix4,
-    samples: number,
+    _geometry: BufferGeometry,
+    object: Object3D,
   ): void {
-    const { eye, pixelWidth } = this.uniforms;
-    const height = renderer.getCurrentViewport(vector).w;
+    const { pixelWidth, capturing } = this.uniforms;
+    if (!capturing?.value) this.drawn?.(scene, object);
+    if (!pixelWidth) return;
+    const samples = capturing?.value ? 1 : (this.shaders?.samples ?? 1);
+    const { w: height } = renderer.getCurrentViewport(viewport);
     // Half the picture's height: at distance 1, or of an orthographic camera at any.
     const half = 1 / Math.abs(camera.projectionMatrix.elements[5]);
     const width = (2 * half) / (height * Math.sqrt(samples));
     const orthographic = camera.projectionMatrix.elements[15] === 1;
-    const c = camera.matrixWorld.elements;
-    if (orthographic) {
-      const scale = assetFromCameras.getMaxScaleOnAxis();
-      eye.value.set(c[8], c[9], c[10], 0).applyMatrix4(assetFromCameras).normalize();
-      pixelWidth.value.set(0, width * scale);
-    } else {
-      eye.value.set(c[12], c[13], c[14], 1).applyMatrix4(assetFromCameras);
-      pixelWidth.value.set(width, 0);
-    }
+    const scale = object.matrixWorld.getMaxScaleOnAxis();
+    const size = pixelWidth.value as Vector2;
+    if (orthographic) size.set(0, width / scale);
+    else size.set(width, 0);
   }
 
-  private place(worldFrom: Matrix4): void {
-    const { veil, worldFromAsset } = this.uniforms;
-    if (veil) veil.value[1] = this.sample;
-    worldFromAsset.value.setFromMatrix4(worldFrom);
-    const scale = worldFrom.getMaxScaleOnAxis();
-    if (scale > 0) worldFromAsset.value.multiplyScalar(1 / scale);
-    this.uniformsNeedUpdate = true;
+  override dispose(): void {
+    super.dispose();
+    this.disposed?.();
   }
-}
-
-/** A surface without meso-structure. Uniforms of its results are the caller's to set. */
-export function makeSurfaceMaterial(
-  shape: SurfaceShape,
-  uniforms: Record<string, IUniform>,
-): RelitMaterial {
-  const coefficients = (shape.lobeBands ?? 0) ** 2;
-  const vertices = shape.kind === "vertices";
-  const map = shape.uv ? shape.map : null;
-  const glossy = coefficients > 0 && (vertices || shape.kind === "texels");
-  const fetch = shape.fetch && glossy && vertices;
-  const mirror = shape.kind === "mirror";
-  const sun = shape.sun === "hidden" ? 2 : flag(shape.sun);
-  const common = defines({
-    KIND: kSurfaceKind[shape.kind],
-    VERTICES: flag(vertices),
-    DIFFUSE: flag(shape.diffuse && (vertices || shape.kind === "texels")),
-    GLOSSY: flag(glossy),
-    PATCH: 0,
-    FETCH: flag(fetch),
-    MAP: flag(map),
-    UV: flag(shape.uv),
-    TEXEL_UV: flag(shape.texelUv),
-    COLOR: flag(shape.colored),
-    ALBEDO_OUTSIDE: flag(shape.albedoOutside),
-    SUN: sun,
-    SUN_SHARE: flag(shape.sunShare),
-    ALPHA: flag(shape.gaps),
-    CAPTURED: flag(shape.captured),
-  });
-  const light = glossy ? incidentDefines(coefficients, vertices && !fetch) : "";
-  const parts = [
-    common,
-    light,
-    glossy ? `#define LAMBENT_BANDS ${shape.lobeBands}\n${sh}` : "",
-    glossy ? incident + incidentTexture + lobe : "",
-    shadingNormal,
-    shadingPoint,
-    baseColor,
-    shape.gaps ? coverage : "",
-    map ? baseColorMap : "",
-    shape.kind === "texels" ? texelReceivers : "",
-    sun === 2 ? sunShadow : "",
-    sun ? sunLight : "",
-    airSource(shape.air ?? "none"),
-    shape.captured ? captured : "",
-    mirror ? `uniform mat3 worldFromAsset;\n${environmentGlsl}` : "",
-    mirror && shape.captured ? localCapture : "",
-    surfaceFrag,
-  ];
-  const vertexParts = [common, light, glossy ? incidentTexture : "", surfaceVert];
-  const material = new RelitMaterial(vertexParts.join("\n"), parts.join("\n"), {
-    reflectance: { value: new Vector3(1, 1, 1) },
-    ...(map && mapUniforms(map)),
-    ...uniforms,
-  });
-  material.vertexColors = shape.colored;
-  return material;
-}
-
-/** A surface with meso-structure. */
-export function makePatchMaterial(
-  shape: PatchShape,
-  uniforms: Record<string, IUniform>,
-): RelitMaterial {
-  const coefficients = shape.bands ** 2;
-  const common = defines({
-    KIND: kSurfaceKind.vertices,
-    VERTICES: 1,
-    DIFFUSE: 0,
-    GLOSSY: 0,
-    PATCH: 1,
-    SUN_SHARE: 0,
-    ALPHA: 0,
-    FETCH: flag(shape.fetch),
-    UV: 1,
-    TEXEL_UV: 0,
-    COLOR: 0,
-    CAPTURED: flag(shape.captured),
-    NUMBERS: shape.numbers,
-    FILTER: flag(shape.filter),
-    ID_MAP: flag(shape.idMap),
-    RESPONSE: responseMacros(coefficients, shape.groupsAFetch),
-    RTT_PLACE: "ivec3",
-  });
-  const light = incidentDefines(coefficients, !shape.fetch);
-  const parts = [
-    common,
-    light,
-    incident,
-    incidentTexture,
-    rowPlace,
-    rttResponse,
-    rttTexture,
-    viewSquare,
-    rttFootprint,
-    rttLookUp,
-    tangentFrame,
-    shadingNormal,
-    shadingPoint,
-    patchPlace,
-    airSource(shape.air),
-    shape.captured ? captured : "",
-    patchFrag,
-  ];
-  const vertexParts = [common, light, incidentTexture, surfaceVert];
-  return new RelitMaterial(vertexParts.join("\n"), parts.join("\n"), uniforms);
 }

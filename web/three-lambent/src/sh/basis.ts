@@ -31,13 +31,13 @@ export function bandsOf(count: number): number {
  * @param x, y, z a unit vector
  * @param out bands² numbers are written
  */
-export function evaluateHarmonics(
+export function evaluateHarmonics<T extends Float64Array | Float32Array | number[] = Float64Array>(
   bands: number,
   x: number,
   y: number,
   z: number,
-  out: Float64Array | Float32Array | number[] = new Float64Array(bands * bands),
-): typeof out {
+  out: T = new Float64Array(bands * bands) as unknown as T,
+): T {
   let cosine = 1;
   let sine = 0;
   let sectoral = Math.sqrt(1 / (4 * Math.PI));

@@ -33,7 +33,7 @@ export interface AirTableData {
    * Texels of four numbers: [distance][elevation][column][4]; columns are the azimuths of the sources
    * of air, of aerosols and of light scattered more than once, then the extinction.
    */
-  texels: Float32Array<ArrayBuffer>;
+  texels: Float32Array;
   /** Of the planet, and of the air above it; metres. */
   radius: number;
   height: number;

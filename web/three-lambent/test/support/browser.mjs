@@ -21,8 +21,12 @@ function chromiumPath() {
   }
 }
 
-/** `source` (an ES module in the package's folder, or its text) as one script for the browser. */
-export async function bundle(source) {
+/**
+ * `source` (an ES module in the package's folder, or its text) as one script for the browser.
+ *
+ * @param three the name of the installed package that is to be three
+ */
+export async function bundle(source, three = "three") {
   const result = await build({
     stdin: {
       contents: source,
@@ -33,7 +37,11 @@ export async function bundle(source) {
     format: "esm",
     write: false,
     logLevel: "silent",
-    alias: { "three-lambent": fileURLToPath(new URL("../../dist/index.js", import.meta.url)) },
+    absWorkingDir: fileURLToPath(new URL("../..", import.meta.url)),
+    alias: {
+      "three-lambent": fileURLToPath(new URL("../../dist/index.js", import.meta.url)),
+      ...(three !== "three" && { three }),
+    },
   });
   return result.outputFiles[0].text;
 }

@@ -221,6 +221,12 @@ export const leafScene = sceneGlb(
   [holes],
 );
 
+/** A ball of small triangles, whose seam is as far apart as sines are from 0. */
+export const denseScene = sceneGlb(
+  [ball({ name: "ball", center: [0, 0.5, 0], radius: 1, rings: 120, sectors: 180, material: 0 })],
+  [matt([0.8, 0.8, 0.8])],
+);
+
 /** What a patch is spread over. */
 export const ballScene = sceneGlb(
   [

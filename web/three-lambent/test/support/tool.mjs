@@ -1,5 +1,8 @@
 // The lambent tool, whose pictures by CPU the browser's are held to.
 import { execFileSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { ballScene } from "./scenes.mjs";
 
 const tool = process.env.LAMBENT_TOOL;
 
@@ -14,4 +17,14 @@ export function lambent(cwd, ...args) {
   } catch (error) {
     throw new Error(`lambent ${args.join(" ")}\n${error.stdout ?? error}${error.stderr ?? ""}`);
   }
+}
+
+/** patch.glb: a small asset with meso-structure. */
+export function bakePatch(folder) {
+  const patch = ["--positions", "12x10", "--views", 4, "--directions", 64, "--bounces", 1];
+  lambent(folder, "rtt", "stucco", "-o", "patch.rtt", ...patch, "--quiet");
+  const spread = ["--directions", 128, "--map-size", 128, "--vertices", 3000, "--mesh", "ball"];
+  const rtt = ["--rtt", "patch.rtt", "--patch-width", 0.5, "--quiet"];
+  writeFileSync(join(folder, "ball-scene.glb"), ballScene);
+  lambent(folder, "synthesize", "ball-scene.glb", ...rtt, "-o", "patch.glb", ...spread);
 }
