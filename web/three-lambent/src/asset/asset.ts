@@ -386,7 +386,7 @@ export class LambentAsset {
     }
     const lobes = whole.slice();
     if (this.softLobes && this.hasLobes) {
-      const weights = leastSofteningWindow(whole, this.description.bands);
+      const weights = leastSofteningWindow(whole, this.source.description.bands);
       lobes.forEach((value, i) => (lobes[i] = weights[bandOf(Math.floor(i / 3))] * value));
     }
     return { whole, sun, withoutSun: whole.map((value, i) => value - sun[i]), lobes };
