@@ -81,7 +81,7 @@ install: product
 
 asan: setup-tests
 	@cmake --preset asan > build/asan-configure.log 2>&1 || { cat build/asan-configure.log; exit 1; }
-	@cmake --build build/asan --parallel $(JOBS) --target lambent_tool lambent_fuzz_replay $(ASAN_ROOMS:%=lambent_%_tests)
+	@cmake --build build/asan --parallel $(JOBS) --target lambent_fuzz_replay $(ASAN_ROOMS:%=lambent_%_tests)
 	@LAMBENT_ISA=baseline ctest --test-dir build/asan --parallel $(JOBS) --output-on-failure -E '$(ASAN_LEFT_OUT)' \
 	  -L '^($(call either,$(ASAN_ROOMS) fuzz))$$'
 

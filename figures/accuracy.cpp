@@ -143,6 +143,7 @@ void glossyAccuracy(const Studio& studio) {
       options.bounces = 0;
       shade::ReceiverView view;
       view.eye = eye;
+      view.showing.softLobes = false;  // the truth has the lobe
       const Error shadowed =
           compare(shade::exitRadiance(bake(scene, options).asset, 0, light, view), sample, direct);
       options.bounces = 1;

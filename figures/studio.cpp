@@ -55,6 +55,7 @@ image::Image photograph(const asset::Asset& asset, const sh::RgbCoefficients& li
                         int width, int height) {
   shade::PictureOptions options;
   options.width = width, options.height = height;
+  options.showing.softLobes = false;  // what stands beside path tracing has the material's lobe
   return orDie(reference::relitPicture(asset, light, environment, camera, options));
 }
 

@@ -25,17 +25,48 @@ CLI::Option* LightArguments::addTo(CLI::App& app, bool positional) {
   return option;
 }
 
-void LightArguments::addWindowTo(CLI::App& app) {
-  app.add_option("--window", window,
-                 "Soften the highest bands against ringing: hann:WIDTH or lanczos:WIDTH in bands, "
-                 "minimal (the least that keeps radiance from falling below zero), or none")
-      ->check([](const std::string& given) -> std::string {
+namespace {
+
+void addWindow(CLI::App& app, std::string& window, const std::string& text, bool knowsLobes) {
+  app.add_option("--window", window, text)
+      ->check([knowsLobes](const std::string& given) -> std::string {
         const auto parsed = light::parseWindowing(given);
-        return parsed ? "" : parsed.error().message;
+        if (!parsed) return parsed.error().message;
+        if (!knowsLobes && light::softensLobes(given))
+          return "auto softens how an asset's glossy surfaces show a light, not the light: that is "
+                 "for "
+                 "'lambent render' and 'lambent shade'";
+        return "";
       })
       ->option_text("WINDOW")
       ->capture_default_str()
       ->group("Light");
+}
+
+const std::string kWindows =
+    "hann:WIDTH or lanczos:WIDTH in bands, minimal (the least that keeps radiance from falling "
+    "below "
+    "zero), or none";
+
+}  // namespace
+
+void LightArguments::addWindowOfAssetsTo(CLI::App& app) {
+  window = "auto";
+  addWindow(
+      app, window,
+      "Against ringing. auto: glossy surfaces, and how they see the light, are softened by the "
+      "least that leaves no dark rings; diffuse ones see it whole. Or soften the light's highest "
+      "bands for all: " +
+          kWindows + " (to compare with other renderers)",
+      true);
+}
+
+void LightArguments::addWindowTo(CLI::App& app) {
+  addWindow(app, window, "Soften the highest bands against ringing: " + kWindows, false);
+}
+
+bool LightArguments::softensLobes() const {
+  return light::softensLobes(window);
 }
 
 Mat3d LightArguments::worldFromSource() const {

@@ -24,7 +24,11 @@ struct LightArguments {
 
   /// Returns the option of the source, which is required.
   CLI::Option* addTo(CLI::App& app, bool positional);
+  /// Of verbs that show assets: they can soften lobes, and do unless told otherwise.
+  void addWindowOfAssetsTo(CLI::App& app);
+  /// Of verbs that know lights alone.
   void addWindowTo(CLI::App& app);
+  bool softensLobes() const;
   /// How the source is turned.
   Mat3d worldFromSource() const;
   Result<light::Environment> environment(const ReadingArguments& reading, Console& console) const;

@@ -74,6 +74,7 @@ shade::PictureOptions pictureOptions(const RenderRequest& arguments) {
   options.samples = arguments.samples;
   options.background = arguments.view.background;
   options.showing = arguments.showing.showing();
+  options.showing.softLobes = arguments.light.softensLobes();
   return options;
 }
 
@@ -221,7 +222,7 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
   arguments->showing.addSunTo(*app);
   arguments->air.addTo(*app);
   arguments->development.addTo(*app);
-  arguments->light.addWindowTo(*app);
+  arguments->light.addWindowOfAssetsTo(*app);
   arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runRender(*arguments, console); }};

@@ -54,7 +54,8 @@ Status runShade(const ShadeRequest& arguments, Console& console) {
   const auto light = arguments.light.coefficients(*environment, asset->transfer.bands, console);
   if (!light) return light.error();
 
-  const shade::ReceiverView view{arguments.eye, arguments.showing.showing()};
+  shade::ReceiverView view{arguments.eye, arguments.showing.showing()};
+  view.showing.softLobes = arguments.light.softensLobes();
   if (Status s = checkHeld(*asset, view.showing, arguments.asset); !s) return s;
   const ReceiverFile file = console.stage("shade", [&] {
     ReceiverFile all;
@@ -108,7 +109,7 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
       ->group("View");
   arguments->showing.addLobeTo(*app, "View");
   arguments->showing.addTo(*app);
-  arguments->light.addWindowTo(*app);
+  arguments->light.addWindowOfAssetsTo(*app);
   arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
   return {app, [arguments](Console& console) { return runShade(*arguments, console); }};

@@ -58,7 +58,7 @@ void choose(Session& session, Choice choice, bool offered, std::string_view name
 }
 
 void cycleWindow(Session& session, const PixelSize&) {
-  const std::vector<std::string> windows = {"none", "hann", "lanczos", "minimal"};
+  const std::vector<std::string> windows = {"auto", "none", "hann", "lanczos", "minimal"};
   const auto now = std::find(windows.begin(), windows.end(), session.state.window);
   const std::size_t next = now == windows.end() ? 0 : std::size_t(now - windows.begin() + 1);
   session.state.window = windows[next % windows.size()];

@@ -124,7 +124,7 @@ void Panels::drawLight(Session& session) {
 
   drawDiscs(session, sky_);
 
-  const char* windows[] = {"none", "hann", "lanczos", "minimal"};
+  const char* windows[] = {"auto", "none", "hann", "lanczos", "minimal"};
   const std::string kind = state.window.substr(0, state.window.find(':'));
   if (ImGui::BeginCombo("window", kind.c_str())) {
     for (const char* each : windows)

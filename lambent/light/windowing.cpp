@@ -16,12 +16,13 @@ Result<Windowing> parseWindowing(std::string_view text) {
   Windowing windowing;
   if (name == "hann") windowing.kind = Kind::Hann;
   if (name == "lanczos") windowing.kind = Kind::Lanczos;
+  if (name == "auto") windowing.kind = Kind::Auto;
   if (name == "minimal") windowing.kind = Kind::Minimal;
   const bool hasWidth = windowing.kind == Kind::Hann || windowing.kind == Kind::Lanczos;
   const bool known = windowing.kind != Kind::None || name == "none";
   if (!known || (colon != text.npos && !hasWidth))
     return report::badUsage(fmt::format(
-        "'{}' is not a window: write none, minimal, hann:WIDTH or lanczos:WIDTH", text));
+        "'{}' is not a window: write auto, none, minimal, hann:WIDTH or lanczos:WIDTH", text));
   if (colon == text.npos) return windowing;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data() + colon + 1, end, windowing.width);
@@ -31,10 +32,16 @@ Result<Windowing> parseWindowing(std::string_view text) {
   return windowing;
 }
 
+bool softensLobes(std::string_view text) {
+  const Result<Windowing> windowing = parseWindowing(text);
+  return windowing && windowing->kind == Windowing::Kind::Auto;
+}
+
 std::vector<double> windowOf(const Windowing& windowing, const sh::RgbCoefficients& light) {
   const double width = windowing.width > 0.0 ? windowing.width : double(light.bands);
   switch (windowing.kind) {
     case Windowing::Kind::None:
+    case Windowing::Kind::Auto:
       break;
     case Windowing::Kind::Hann:
       return sh::hann(light.bands, width);
@@ -47,7 +54,9 @@ std::vector<double> windowOf(const Windowing& windowing, const sh::RgbCoefficien
 }
 
 void soften(const Windowing& windowing, sh::RgbCoefficients& light) {
-  if (windowing.kind != Windowing::Kind::None) sh::applyWindow(windowOf(windowing, light), light);
+  using Kind = Windowing::Kind;
+  if (windowing.kind == Kind::None || windowing.kind == Kind::Auto) return;
+  sh::applyWindow(windowOf(windowing, light), light);
 }
 
 }  // namespace lambent::light

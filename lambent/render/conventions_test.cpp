@@ -21,6 +21,7 @@
 #include "lambent/render/test_shader.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/rotation.h"
+#include "lambent/sh/window.h"
 #include "lambent/sh/zonal.h"
 
 namespace lambent::render {
@@ -189,6 +190,10 @@ TEST(ConventionTable, LibraryHasItsZonalFunctions) {
   for (const Json& entry : table().at("lobeMoments"))
     expectNumbers(sh::phongLobe(bands, entry.at("exponent").get<double>()), entry.at("values"),
                   1e-10, "lobe");
+  for (const Json& entry : table().at("softLobes"))
+    expectNumbers(sh::leastSoftening(sh::phongLobe(entry.at("bands").get<int>(),
+                                                   entry.at("exponent").get<double>())),
+                  entry.at("window"), 1e-9, "soft lobe");
   for (const Json& entry : table().at("disc")) {
     const double diameter = entry.at("diameter").get<double>() * kPi / 180.0;
     const sh::ZonalMoments moments = sh::cap(bands, diameter / 2);

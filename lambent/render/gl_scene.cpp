@@ -83,8 +83,8 @@ Status GlScene::choose(const shade::Showing& showing) {
       (void)patches_.choose(before);
       return s;
     }
-  } else if (showing.lobeExponent != before.lobeExponent) {
-    surfaces_.setLobe(showing.lobeExponent);
+  } else if (showing.lobeExponent != before.lobeExponent || showing.softLobes != before.softLobes) {
+    surfaces_.setLobe(showing);
   }
   options_.showing = showing;
   return Status::ok();

@@ -89,7 +89,7 @@ Result<GlSurfaces::Lit> GlSurfaces::lightOf(std::uint32_t mesh, const shade::Sho
     }
   }
   if (response.glossy) {
-    Result<Relit> made = transfer.lobe(*response.glossy, receivers, showing.lobeExponent);
+    Result<Relit> made = transfer.lobe(*response.glossy, receivers, showing);
     if (!made) return made.error();
     lit.lobe = std::move(*made);
   }
@@ -280,13 +280,10 @@ void GlSurfaces::setLight(std::vector<Lit> light) {
   lit_ = std::move(light);
 }
 
-void GlSurfaces::setLobe(std::optional<float> exponent) {
+void GlSurfaces::setLobe(const shade::Showing& showing) {
   for (Lit& lit : lit_)
-    if (lit.lobe.product.name()) {
-      const transfer::Glossy<transfer::Numbers>& glossy = *partsOf(lit.mesh)->glossy;
-      TransferOnGpu::setLobe(lit.lobe, glossy.matrices.outBands,
-                             exponent.value_or(glossy.lobe.exponent));
-    }
+    if (lit.lobe.product.name())
+      TransferOnGpu::setLobe(lit.lobe, *partsOf(lit.mesh)->glossy, showing);
 }
 
 /// Two sides of a sheet have the same depth: what faces away would be drawn over what is seen.

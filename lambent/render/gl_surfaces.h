@@ -51,7 +51,7 @@ class GlSurfaces {
   void setSharpSun(bool sharp) { sharpSun_ = sharp; }
   void setLight(std::vector<Lit> light);
   /// Other lobes for what is lit.
-  void setLobe(std::optional<float> exponent);
+  void setLobe(const shade::Showing& showing);
   /// Calls each(mesh, relit) for everything that a new light changes.
   template <class Each>
   void forEach(Each each) {

@@ -120,6 +120,7 @@ void TransferOnGpu::setLight(const sh::RgbCoefficients& light) {
   light_.write(light);
   lightOnCpu_ = light;
   field_ = 0;
+  softLobesStale_ = true;
   uploadSun();
 }
 
@@ -180,15 +181,28 @@ Result<const Program*> TransferOnGpu::program(const Relit& relit, Encoding encod
   return &found->second;
 }
 
+const TransferOnGpu::LightBuffer& TransferOnGpu::lightOf(const Relit& relit) {
+  switch (relit.light) {
+    case Relit::Light::Whole:
+      return light_;
+    case Relit::Light::Sun:
+      return sun_;
+    case Relit::Light::WithoutSun:
+      return withoutSun_;
+    case Relit::Light::SoftLobes:
+      break;
+  }
+  if (std::exchange(softLobesStale_, false)) ofSoftLobes_.write(shade::softened(lightOnCpu_));
+  return ofSoftLobes_;
+}
+
 Status TransferOnGpu::dispatch(const Relit& relit, const Relit::Chunk& chunk) {
   const Result<const Program*> found = program(relit, relit.shape.encoding);
   if (!found) return found.error();
   const Program& product = **found;
   const ProductShape& shape = relit.shape;
   const bool field = takesField(relit);
-  const LightBuffer& light = relit.light == Relit::Light::Whole ? light_
-                             : relit.light == Relit::Light::Sun ? sun_
-                                                                : withoutSun_;
+  const LightBuffer& light = lightOf(relit);
   const int bands = field ? fieldBands_ : light.bands;
   const int used = std::min(shape.columns, sh::coefficientCount(bands));
   const int made = filledUp(used);
@@ -292,7 +306,7 @@ Result<Relit> TransferOnGpu::diffuse(const transfer::Vectors<Numbers>& vectors,
 
 Result<Relit> TransferOnGpu::lobe(const transfer::Glossy<Numbers>& glossy,
                                   std::vector<std::uint32_t> receivers,
-                                  std::optional<float> lobeExponent) {
+                                  const shade::Showing& showing) {
   const transfer::Matrices<Numbers>& matrices = glossy.matrices;
   Relit relit;
   relit.receivers = std::move(receivers);
@@ -302,13 +316,15 @@ Result<Relit> TransferOnGpu::lobe(const transfer::Glossy<Numbers>& glossy,
   relit.shape.columns = sh::coefficientCount(matrices.inBands);
   relit.shape.stride = shade::rttStride(matrices.outBands);
   relit.shape.reflectance = glossy.lobe.reflectance;
-  setLobe(relit, matrices.outBands, lobeExponent.value_or(glossy.lobe.exponent));
+  setLobe(relit, glossy, showing);
   if (Status s = multiply(relit, matrices.numbers); !s) return s.error();
   return relit;
 }
 
-void TransferOnGpu::setLobe(Relit& relit, int outBands, float exponent) {
-  relit.factors = makeBuffer(shade::lobeFactors(outBands, exponent));
+void TransferOnGpu::setLobe(Relit& relit, const transfer::Glossy<Numbers>& glossy,
+                            const shade::Showing& showing) {
+  relit.factors = makeBuffer(shade::lobeFactors(glossy.matrices.outBands, glossy.lobe, showing));
+  relit.light = showing.softLobes ? Relit::Light::SoftLobes : Relit::Light::Whole;
 }
 
 /// Lit once: turning the light costs less than making the matrices that would.

@@ -15,6 +15,7 @@
 #include "lambent/render/gl_objects.h"
 #include "lambent/sh/coefficients.h"
 #include "lambent/shade/rtt_pyramid.h"
+#include "lambent/shade/showing.h"
 #include "lambent/transfer/field.h"
 
 namespace lambent::render {
@@ -39,9 +40,9 @@ struct Relit {
     std::size_t first = 0, count = 0;  ///< receivers
   };
   std::vector<std::uint32_t> receivers;  ///< the mesh's numbers of them
-  /// What its product is with: all of the light, its Sun's share of it, or the rest. (Light fields
-  /// have no Sun.)
-  enum class Light { Whole, Sun, WithoutSun };
+  /// What its product is with: all of the light, its Sun's share of it, the rest, or what reaches soft
+  /// lobes (shade::Showing::softLobes). Light fields are taken as they are.
+  enum class Light { Whole, Sun, WithoutSun, SoftLobes };
   Light light = Light::Whole;
   Buffer product;  ///< [receiver][ProductShape::stride] floats
   ProductShape shape;
@@ -80,9 +81,10 @@ class TransferOnGpu {
   /// α_i G_i (M L)_i k: [receiver][rttStride(outBands)], coefficient after coefficient, each R, G,
   /// B, filled up with zeros.
   Result<Relit> lobe(const transfer::Glossy<transfer::Numbers>& glossy,
-                     std::vector<std::uint32_t> receivers, std::optional<float> lobeExponent);
-  /// Another lobe for what lobe() made of matrices of so many bands.
-  static void setLobe(Relit& relit, int outBands, float exponent);
+                     std::vector<std::uint32_t> receivers, const shade::Showing& showing);
+  /// Another lobe for what lobe() made of these.
+  static void setLobe(Relit& relit, const transfer::Glossy<transfer::Numbers>& glossy,
+                      const shade::Showing& showing);
   /// Light that arrives at the meso-structure of the named receivers under a kind (which must be
   /// held, or Unshadowed), times a factor for each of bands² coefficients:
   /// [receiver][rttStride(bands)], laid out as shade::RttPyramid's numbers are.
@@ -94,6 +96,7 @@ class TransferOnGpu {
   Status relight(const Relit& relit);
 
  private:
+  struct LightBuffer;
   Status multiply(Relit& relit, const transfer::Numbers& transfer);
   Relit turned(const transfer::BiScale<transfer::Numbers>& biScale,
                const std::vector<std::uint32_t>& receivers, int bands,
@@ -105,6 +108,7 @@ class TransferOnGpu {
   }
   Result<const Program*> program(const Relit& relit, transfer::Encoding encoding);
   void uploadSun();
+  const LightBuffer& lightOf(const Relit& relit);
 
   std::size_t largestBlock_;
   Residence residence_;
@@ -116,8 +120,9 @@ class TransferOnGpu {
   };
   sh::RgbCoefficients lightOnCpu_;
   std::optional<sh::RgbCoefficients> sunShare_;
-  LightBuffer light_, sun_, withoutSun_;
-  GLuint field_ = 0;  ///< the caller's buffer, or 0: one light
+  LightBuffer light_, sun_, withoutSun_, ofSoftLobes_;
+  bool softLobesStale_ = true;  ///< ofSoftLobes_ is not of this light
+  GLuint field_ = 0;            ///< the caller's buffer, or 0: one light
   int fieldBands_ = 0;
   Buffer blended_;  ///< the field at the receivers of one dispatch: [receiver][coefficient][3]
   std::size_t blendedBytes_ = 0;

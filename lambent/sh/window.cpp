@@ -218,4 +218,65 @@ std::vector<double> minimalRinging(const RgbCoefficients& f) {
   return laplacianWindow(f.bands, lambda);
 }
 
+namespace {
+
+/// The least s that leaves (1−s) · plain + s · soft non-negative at all the points that it saw.
+class LeastShare {
+ public:
+  void see(double plain, double soft) {
+    if (plain >= 0) return;
+    share_ = soft <= 0 ? 1 : std::max(share_, plain / (plain - soft));
+  }
+  std::vector<double> window(const ZonalMoments& soft) const {
+    std::vector<double> window;
+    for (const double moment : soft) window.push_back(1 - share_ + share_ * moment);
+    return window;
+  }
+
+ private:
+  double share_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> leastSoftening(const RgbCoefficients& f) {
+  assert(f.bands >= 1 && f.bands <= kMaxBands);
+  const ZonalMoments soft = sharpestNonNegative(f.bands);
+  LeastShare least;
+  std::array<double, kMaxBands * kMaxBands> y;
+  for (const Vec3& s : math::sphericalFibonacci(100 * f.bands * f.bands)) {
+    evaluate(f.bands, s.cast<double>().eval(), y);
+    for (int c = 0; c < 3; ++c) {
+      const std::span<const float> channel = f.channel(c);
+      double plain = 0, softened = 0;
+      for (int l = 0, i = 0; l < f.bands; ++l) {
+        double share = 0;
+        for (; i < (l + 1) * (l + 1); ++i) share += double(channel[i]) * y[i];
+        plain += share;
+        softened += soft[l] * share;
+      }
+      least.see(plain, softened);
+    }
+  }
+  return least.window(soft);
+}
+
+std::vector<double> leastSoftening(const ZonalMoments& f) {
+  const int bands = int(f.size());
+  const ZonalMoments soft = sharpestNonNegative(bands);
+  LeastShare least;
+  const int angles = 100 * bands;
+  for (int i = 0; i <= angles; ++i) {
+    const double t = std::cos(kPi * i / angles);
+    double plain = 0, softened = 0;
+    for (int l = 0; l < bands; ++l) {
+      const double share = (2 * l + 1) * f[l] * std::legendre(unsigned(l), t);
+      plain += share;
+      softened += soft[l] * share;
+    }
+    least.see(plain, softened);
+  }
+  return least.window(soft);
+}
+
 }  // namespace lambent::sh

@@ -152,5 +152,58 @@ TEST(MinimalRinging, KeepsTheMeanAloneWhereNothingElseHelps) {
   EXPECT_EQ(minimalRinging(f), (std::vector<double>{1, 0, 0}));
 }
 
+TEST(LeastSoftening, LeavesWhatDoesNotRing) {
+  std::vector<float> f(25);
+  turnTo(ZonalMoments{1, 0.25, 0.05, 0.005, 0.0005}, Vec3(Vec3::UnitX()), f);
+  EXPECT_EQ(leastSoftening(inEveryChannel(5, f)), std::vector<double>(5, 1.0));
+  EXPECT_EQ(leastSoftening(RgbCoefficients(4)), std::vector<double>(4, 1.0));
+  EXPECT_EQ(leastSoftening(henyeyGreenstein(10, 0.4)), std::vector<double>(10, 1.0));
+}
+
+TEST(LeastSoftening, OfADeltaIsTheSharpestNonNegativeAndKeepsMoreThanMinimalRinging) {
+  std::vector<float> f(25);
+  turnTo(delta(5), Vec3(Vec3(0.2f, -0.7f, 0.4f).normalized()), f);
+  const std::vector<double> window = leastSoftening(inEveryChannel(5, f));
+  const std::vector<double> minimal = minimalRinging(inEveryChannel(5, f));
+  for (std::size_t l = 1; l < 5; ++l) {
+    EXPECT_NEAR(window[l], sharpestNonNegative(5)[l], 0.03);
+    EXPECT_GT(window[l], minimal[l] + 0.05);
+  }
+  const std::vector<double> ofLobe = leastSoftening(delta(5));
+  for (std::size_t l = 1; l < 5; ++l) EXPECT_NEAR(ofLobe[l], sharpestNonNegative(5)[l], 0.03);
+}
+
+TEST(LeastSoftening, LeavesNoneOfSeveralSmallLightsNegative) {
+  for (int bands : {2, 3, 4, 5, 7, 10})
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      math::Random random(seed, std::uint64_t(bands));
+      RgbCoefficients f(bands);
+      std::vector<float> lobe(coefficientCount(bands));
+      for (int light = 0; light < 3; ++light) {
+        turnTo(cap(bands, 0.05 + 0.5 * random.uniform()),
+               Vec3(math::randomRotation(random.bits()).col(2)), lobe);
+        for (int c = 0; c < 3; ++c) {
+          const float power = random.uniform();
+          for (std::size_t i = 0; i < lobe.size(); ++i) f.channel(c)[i] += power * lobe[i];
+        }
+      }
+      for (int c = 0; c < 3; ++c) f.channel(c)[0] += 0.01f;
+      RgbCoefficients windowed = f;
+      applyWindow(leastSoftening(f), windowed);
+      const Range r = range(windowed, 40000);
+      EXPECT_GE(r.least, -5e-3 * r.peak) << bands << " bands";
+    }
+}
+
+TEST(LeastSoftening, OfALobeIsTheSameAsOfTheLightThatItWouldBe) {
+  for (double exponent : {2.0, 12.0, 80.0}) {
+    std::vector<float> f(36);
+    turnTo(phongLobe(6, exponent), Vec3(Vec3(0.2f, -0.7f, 0.4f).normalized()), f);
+    const std::vector<double> light = leastSoftening(inEveryChannel(6, f));
+    const std::vector<double> lobe = leastSoftening(phongLobe(6, exponent));
+    for (std::size_t l = 0; l < 6; ++l) EXPECT_NEAR(light[l], lobe[l], 0.02) << exponent;
+  }
+}
+
 }  // namespace
 }  // namespace lambent::sh

@@ -78,6 +78,37 @@ ZonalMoments henyeyGreenstein(int bands, double g) {
   return moments;
 }
 
+// A quadrature with weights w_i > 0 and nodes t_i that is exact for t h(t) gives
+//   ĥ_1 = 2π Σ w_i t_i h(t_i) ≤ max t_i · ĥ_0 for h ≥ 0,
+// with equality where h vanishes at all nodes but the largest. For n = 2m + 1 bands that is Gauss's
+// rule, whose nodes are the roots of q = P_{m+1}, and h = (q/(t − x))² with x the largest of them; for
+// n = 2m + 2 Radau's, of q = (P_{m+1} + P_{m+2})/(1 + t) and −1, and h = (1 + t) (q/(t − x))².
+ZonalMoments sharpestNonNegative(int bands) {
+  assert(bands >= 1);
+  const unsigned m = unsigned(bands - 1) / 2;
+  const bool even = bands % 2 == 0;
+  const auto nodal = [&](double t) {
+    return even ? (std::legendre(m + 1, t) + std::legendre(m + 2, t)) / (1 + t)
+                : std::legendre(m + 1, t);
+  };
+  // It is positive right of its largest root, from which the next one is farther than a step.
+  double low = 1, high = 1;
+  while (nodal(low) > 0 && low > -0.9) low -= 0.25 / (bands * bands);
+  for (int i = 0; i < 200 && high > low; ++i) {
+    const double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    (nodal(middle) > 0 ? high : low) = middle;
+  }
+  const double x = (low + high) / 2;
+  ZonalMoments moments = zonal(bands, [&](double t) {
+    const double root = nodal(t) / (t - x);
+    return (even ? 1 + t : 1) * root * root;
+  });
+  const double whole = moments[0];
+  for (double& moment : moments) moment /= whole;
+  return moments;
+}
+
 ZonalMoments delta(int bands) {
   return ZonalMoments(std::size_t(bands), 1.0);
 }

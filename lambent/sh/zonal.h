@@ -22,6 +22,9 @@ ZonalMoments cap(int bands, double halfAngle);       ///< 1 within halfAngle (ra
 ZonalMoments phongLobe(int bands, double exponent);  ///< (r+1)/2π·max(0,cos θ)^r, unit integral
 ZonalMoments henyeyGreenstein(int bands, double g);  ///< unit integral: moments g^l
 ZonalMoments delta(int bands);                       ///< unit integral at θ = 0: all ones
+/// The sharpest function of n bands, n ≥ 1, that is nowhere negative: unit integral, largest ĥ_1.
+/// What is convolved with it, and was not negative, is not cut to n bands either: it does not ring.
+ZonalMoments sharpestNonNegative(int bands);
 ZonalMoments zonal(int bands, const std::function<double(double cosTheta)>& h);  ///< by quadrature
 
 /// Projection coefficients of the zonal function turned to point along a unit `axis`:

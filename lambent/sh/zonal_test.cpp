@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lambent/math/quadrature.h"
@@ -164,6 +165,44 @@ TEST(Zonal, ConvolutionIsTheIntegralOverTheSphere) {
   std::vector<float> same = f;
   convolve(delta(6), same);
   EXPECT_EQ(same, f);
+}
+
+/// Σ (2l+1)/4π ĥ_l P_l(t).
+double at(const ZonalMoments& moments, double t) {
+  double sum = 0;
+  for (std::size_t l = 0; l < moments.size(); ++l)
+    sum += (2.0 * double(l) + 1) / (4 * kPi) * moments[l] * std::legendre(unsigned(l), t);
+  return sum;
+}
+
+TEST(SharpestNonNegative, HasTheRootsThatItMustHave) {
+  EXPECT_EQ(sharpestNonNegative(1), ZonalMoments{1});
+  EXPECT_NEAR(sharpestNonNegative(2)[1], 1.0 / 3, 1e-12);
+  EXPECT_NEAR(sharpestNonNegative(3)[1], std::sqrt(1.0 / 3), 1e-12);
+  EXPECT_NEAR(sharpestNonNegative(3)[2], 0.2, 1e-12);
+  EXPECT_NEAR(sharpestNonNegative(4)[1], (1 + std::sqrt(6.0)) / 5, 1e-12);  // Radau's
+  EXPECT_NEAR(sharpestNonNegative(5)[1], std::sqrt(0.6), 1e-12);
+}
+
+TEST(SharpestNonNegative, IsNowhereNegativeAndNothingNonNegativeIsSharper) {
+  for (int bands = 1; bands <= 10; ++bands) {
+    const ZonalMoments moments = sharpestNonNegative(bands);
+    EXPECT_EQ(moments[0], 1);
+    for (int i = 0; i <= 2000; ++i)
+      ASSERT_GE(at(moments, i / 1000.0 - 1), -1e-12) << bands << " bands";
+    // Whatever else is non-negative: squares of polynomials, of random ones here.
+    math::Random random(1, std::uint64_t(bands));
+    for (int trial = 0; trial < 20 && bands >= 3; ++trial) {
+      std::array<double, 5> a;
+      for (double& each : a) each = 2 * random.uniform() - 1;
+      const ZonalMoments other = zonal(bands, [&](double t) {
+        double p = 0;
+        for (int k = (bands - 1) / 2; k >= 0; --k) p = p * t + a[std::size_t(k)];
+        return p * p;
+      });
+      EXPECT_LE(other[1] / other[0], moments[1] + 1e-12) << bands << " bands";
+    }
+  }
 }
 
 TEST(Zonal, FewerCoefficientsThanMomentsConvolveToo) {

@@ -5,6 +5,7 @@
 
 #include "lambent/scene/texel_map.h"
 #include "lambent/sh/basis.h"
+#include "lambent/sh/window.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/shade/shade.h"
 #include "lambent/shade/transfer_matrices.h"
@@ -63,16 +64,26 @@ Rgb LitMesh::glossyAt(const ReceiverWeights& at, const Vec3& reflected) const {
   return sum;
 }
 
-std::vector<float> lobeFactors(int bands, float exponent) {
-  const sh::ZonalMoments moments = sh::phongLobe(bands, exponent);
+std::vector<float> lobeFactors(int bands, const transfer::Lobe& lobe, const Showing& showing) {
+  sh::ZonalMoments moments = sh::phongLobe(bands, showing.lobeExponent.value_or(lobe.exponent));
+  if (showing.softLobes) {
+    const std::vector<double> window = sh::leastSoftening(moments);
+    for (int l = 0; l < bands; ++l) moments[l] *= window[l];
+  }
   std::vector<float> factors;
   for (int i = 0; i < sh::coefficientCount(bands); ++i)
     factors.push_back(float(moments[sh::bandOf(i)]));
   return factors;
 }
 
+sh::RgbCoefficients softened(const sh::RgbCoefficients& light) {
+  sh::RgbCoefficients result = light;
+  sh::applyWindow(sh::leastSoftening(light), result);
+  return result;
+}
+
 LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
-                  const sh::RgbCoefficients& light, std::optional<float> lobeExponent) {
+                  const sh::RgbCoefficients& light, const Showing& showing) {
   LitMesh lit;
   if (const auto& diffuse = response.diffuse) {
     lit.albedoOutside = diffuse->albedo == transfer::Albedo::BaseColor;
@@ -84,9 +95,9 @@ LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
     const transfer::Lobe& lobe = glossy->lobe;
     lit.lobeBands = glossy->matrices.outBands;
     const int rows = sh::coefficientCount(lit.lobeBands);
-    const std::vector<float> factors =
-        lobeFactors(lit.lobeBands, lobeExponent.value_or(lobe.exponent));
-    const std::vector<float> incident = applyMatrices(glossy->matrices, light);
+    const std::vector<float> factors = lobeFactors(lit.lobeBands, lobe, showing);
+    const std::vector<float> incident =
+        applyMatrices(glossy->matrices, showing.softLobes ? softened(light) : light);
     const std::size_t receivers = incident.size() / (3 * std::size_t(rows));
     lit.lobe.resize(incident.size());
     for (std::size_t p = 0; p < receivers; ++p)
@@ -103,8 +114,7 @@ LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
                      const std::optional<SharpSun>& sun) {
   const transfer::EncodedMesh& encoded = asset.transfer.meshes[mesh];
   if (!std::holds_alternative<transfer::Surface<transfer::Numbers>>(encoded)) return {};
-  LitMesh lit = lightMesh(*responseUnder(asset, mesh, kindShown(encoded, showing)), light,
-                          showing.lobeExponent);
+  LitMesh lit = lightMesh(*responseUnder(asset, mesh, kindShown(encoded, showing)), light, showing);
   const auto kind = sun ? kindWithoutBounces(encoded, showing) : std::nullopt;
   if (!kind) return lit;
   const auto direct = responseUnder(asset, mesh, *kind);

@@ -43,15 +43,18 @@ struct LitMesh {
 };
 
 LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
-                  const sh::RgbCoefficients& light, std::optional<float> lobeExponent);
+                  const sh::RgbCoefficients& light, const Showing& showing);
 /// A bare surface as `showing` has it, or black. Under a sharp Sun without what falls from it on
 /// the diffuse surface directly: that is the caller's to add (sharp_sun.h).
 LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
                      const sh::RgbCoefficients& light, const Showing& showing,
                      const std::optional<SharpSun>& sun);
 
-/// α_i G_i for every coefficient: the lobe's moments, each band's for all its coefficients.
-std::vector<float> lobeFactors(int bands, float exponent);
+/// α_i G_i for every coefficient: the lobe's moments, each band's for all its coefficients; softened
+/// where lobes are.
+std::vector<float> lobeFactors(int bands, const transfer::Lobe& lobe, const Showing& showing);
+/// The light that reaches soft lobes.
+sh::RgbCoefficients softened(const sh::RgbCoefficients& light);
 
 /// v mirrored about the normal; both unit, both pointing away from the surface.
 inline Vec3 mirrored(const Vec3& v, const Vec3& normal) {

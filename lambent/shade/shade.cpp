@@ -125,8 +125,7 @@ std::vector<Rgb> surfaceRadiance(const asset::Asset& asset, std::uint32_t mesh,
   const transfer::Receivers& receivers =
       *std::get<transfer::Surface<Numbers>>(asset.transfer.meshes[mesh]).receivers;
   const transfer::Kind kind = kindShown(asset.transfer.meshes[mesh], view.showing);
-  const LitMesh lit =
-      lightMesh(*responseUnder(asset, mesh, kind), light, view.showing.lobeExponent);
+  const LitMesh lit = lightMesh(*responseUnder(asset, mesh, kind), light, view.showing);
   const std::vector<Rgb> base = receiverBaseColors(asset.scene, mesh, receivers);
   return atAll(receivers, [&](std::size_t p) -> Rgb {
     const ReceiverWeights at = ReceiverWeights::one(std::uint32_t(p));

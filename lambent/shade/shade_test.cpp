@@ -279,7 +279,9 @@ TEST(ExitRadiance, GlossyIsTheIntegralOverTheLobe) {
     for (const float exponent : {0.0f, 4.0f, 16.0f, 64.0f}) {
       const asset::Asset asset = openGlossyPoint(bands, normal, 1.0f);
       const sh::RgbCoefficients light = randomLight(bands, 21);
-      const Rgb out = exitRadiance(asset, 0, light, seenFrom(eye, exponent))[0];
+      ReceiverView view = seenFrom(eye, exponent);
+      view.showing.softLobes = false;
+      const Rgb out = exitRadiance(asset, 0, light, view)[0];
 
       // Midpoints in cos θ and azimuth around R; the integrand is smooth on the hemisphere.
       const Vec3d t = reflected.unitOrthogonal(), b = reflected.cross(t);
@@ -298,6 +300,34 @@ TEST(ExitRadiance, GlossyIsTheIntegralOverTheLobe) {
         EXPECT_NEAR(out[c], kGlossy[c] * integral[c], 2e-3)
             << bands << " bands, exponent " << exponent;
     }
+}
+
+TEST(ExitRadiance, SoftLobesShowNothingNegativeOfASmallLight) {
+  const Vec3 towards = Vec3(0.4f, 0.7f, 0.2f).normalized();
+  for (const int bands : {4, 5, 8}) {
+    sh::RgbCoefficients light(bands);
+    for (int c = 0; c < 3; ++c) sh::turnTo(sh::cap(bands, 0.01), towards, light.channel(c));
+    for (const float exponent : {4.0f, 20.0f, 200.0f}) {
+      float lowest[2] = {0, 0}, peak = 0;
+      for (const bool soft : {false, true})
+        for (int i = 0; i <= 180; ++i) {
+          // Mirrored about the normal, the eye looks where the normal does.
+          const Vec3 normal = (std::cos(i * kPi / 180) * towards +
+                               std::sin(i * kPi / 180) * towards.unitOrthogonal())
+                                  .cast<float>();
+          const asset::Asset asset = openGlossyPoint(bands, normal, exponent, Rgb::Ones());
+          ReceiverView view = seenFrom(normal);
+          view.showing.softLobes = soft;
+          const float out = exitRadiance(asset, 0, light, view)[0].x();
+          lowest[soft] = std::min(lowest[soft], out);
+          if (soft) peak = std::max(peak, out);
+        }
+      EXPECT_GE(lowest[1], -2e-3f * peak) << bands << " bands, exponent " << exponent;
+      if (exponent > 10) {
+        EXPECT_LT(lowest[0], -0.05f * peak) << bands << " bands, exponent " << exponent;
+      }
+    }
+  }
 }
 
 TEST(ExitRadiance, SeesAlongTheNormalWithoutAnEye) {

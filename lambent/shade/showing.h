@@ -19,6 +19,12 @@ struct Showing {
   /// mesh holds.
   std::optional<transfer::Kind> mesoStructure;
   std::optional<float> lobeExponent;  ///< instead of the materials'
+  /// Few bands cannot hold a narrow lobe, nor a small light: both ring, and polished surfaces show dark
+  /// and coloured rings around every highlight. On: lobes, and the light that reaches them, are
+  /// softened by the least that leaves neither negative (sh::leastSoftening), so that nothing of what
+  /// they show is. Off: as the harmonics have them, for comparison with other renderers. Diffuse
+  /// surfaces are the same either way.
+  bool softLobes = true;
   /// Off: meso-structure everywhere as seen from straight above, the centre of the view samples
   /// (the one in the middle or, where their number is even, the mean of the four around it), so
   /// that the patch looks pasted on (sloan2003biscale Figure 6c).
@@ -28,7 +34,9 @@ struct Showing {
   bool filter = true;
 
   /// Everything under one kind.
-  static Showing of(std::optional<transfer::Kind> kind) { return {kind, kind, {}, true, true}; }
+  static Showing of(std::optional<transfer::Kind> kind) {
+    return {kind, kind, {}, true, true, true};
+  }
 };
 
 /// "best" for none, otherwise the kind's name: how files and people name such a choice.

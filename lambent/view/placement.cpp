@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/light/windowing.h"
 #include "lambent/math/directions.h"
 #include "lambent/scene/camera.h"
 
@@ -126,6 +127,7 @@ shade::Showing showingOf(const ViewState& state) {
   shade::Showing showing = shade::Showing::of(state.transfer);
   if (!state.macro) showing.mesoStructure = transfer::Kind::Unshadowed;
   if (state.lobe) showing.lobeExponent = float(*state.lobe);
+  showing.softLobes = light::softensLobes(state.window);
   showing.viewDependent = state.viewDependent;
   return showing;
 }

@@ -51,7 +51,7 @@ struct ViewState {
   std::string environment = "uniform:1";
   std::array<double, 4> environmentRotation{0, 0, 0, 1};
   std::vector<Disc> discs;
-  std::string window = "none";             ///< as light::parseWindowing takes it
+  std::string window = "auto";             ///< as light::parseWindowing takes it
   std::optional<transfer::Kind> transfer;  ///< none: the most that is held
   /// Of the light's Sun, if it has one (light::sunOf): on diffuse surfaces.
   shade::SunShadow sunShadow = shade::SunShadow::Sharp;
@@ -77,7 +77,7 @@ bool operator==(const ViewState& a, const ViewState& b);
 ///  "object": {"rotation": [x,y,z,w], "translation": [x,y,z]},
 ///  "environment": {"source": "studio.exr", "rotation": [x,y,z,w]},
 ///  "discs": [{"azimuth": 30, "elevation": 45, "diameter": 20, "radiance": [r,g,b]}],
-///  "window": "none", "transfer": "best" | "unshadowed" | "shadowed" | "interreflected",
+///  "window": "auto", "transfer": "best" | "unshadowed" | "shadowed" | "interreflected",
 ///  "sunShadow": "sharp" | "soft", "air": null | {"metresPerUnit": 1, "shafts": false},
 ///  "macro": true, "viewDependent": true, "lobe": null | 16, "exposure": 0,
 ///  "tone": "filmic" | "linear", "background": true, "samples": 16}

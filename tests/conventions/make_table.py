@@ -120,6 +120,60 @@ def disc_zonal(bands, diameter):
             for l in range(bands)]
 
 
+def times(p, q):
+    product = [0.0] * (len(p) + len(q) - 1)
+    for i, a in enumerate(p):
+        for j, b in enumerate(q):
+            product[i + j] += float(a) * float(b)
+    return product
+
+
+def without_root(p, x):
+    """p / (t − x), whose remainder is dropped."""
+    quotient = [0.0] * (len(p) - 1)
+    carry = 0.0
+    for k in range(len(p) - 1, 0, -1):
+        carry = float(p[k]) + carry * x
+        quotient[k - 1] = carry
+    return quotient
+
+
+def sharpest_non_negative(bands):
+    """Moments of the non-negative function of so many bands with the largest first one."""
+    m = (bands - 1) // 2
+    p = legendre(m + 1)
+    if bands % 2 == 0:
+        p = without_root([a + b for a, b in zip(p + [Fraction(0)], legendre(m + 2))], -1)
+    low, high = 1 - 1 / (4 * bands), 1.0
+    while polynomial_value(p, low) > 0:
+        low -= 1 / (4 * bands * bands)
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (low, middle) if polynomial_value(p, middle) > 0 else (middle, high)
+    root = without_root(p, low)
+    h = times(root, root)
+    if bands % 2 == 0:
+        h = times(h, [1, 1])
+    moments = []
+    for l in range(bands):
+        integrand = times(h, legendre(l))
+        moments.append(sum(2 * c / (k + 1) for k, c in enumerate(integrand) if k % 2 == 0))
+    return [each / moments[0] for each in moments]
+
+
+def soft_lobe(bands, exponent):
+    """What a lobe's moments are multiplied with so that it is not negative, as far as one looks."""
+    soft, lobe = sharpest_non_negative(bands), lobe_moments(bands, exponent)
+    share = 0.0
+    for i in range(100 * bands + 1):
+        t = math.cos(math.pi * i / (100 * bands))
+        parts = [(2 * l + 1) * lobe[l] * polynomial_value(legendre(l), t) for l in range(bands)]
+        plain, softened = sum(parts), sum(a * b for a, b in zip(soft, parts))
+        if plain < 0:
+            share = max(share, plain / (plain - softened))
+    return [1 - share + share * each for each in soft]
+
+
 def lat_long(d):
     x, y, z = d
     return [math.atan2(z, x) / (2 * math.pi) + 0.5, 0.5 - math.asin(max(-1, min(1, y))) / math.pi]
@@ -166,6 +220,8 @@ def table():
                     if abs(d[1]) < 1 and not (d[2] == 0 and d[0] < 0)],
         "cosineFactors": cosine_factors(10),
         "lobeMoments": [{"exponent": r, "values": lobe_moments(10, r)} for r in (1, 4, 16, 50)],
+        "softLobes": [{"bands": n, "exponent": r, "window": soft_lobe(n, r)}
+                      for n, r in ((1, 4), (2, 50), (4, 16), (5, 2), (5, 80), (10, 50), (10, 400))],
         "disc": [{"diameter": d, "zonal": disc_zonal(10, d)} for d in (5, 60, 180)],
         "filmic": [[x, filmic(x)] for x in (-1, 0, 0.01, 0.18, 0.5, 1, 4, 16, 1000)],
         "srgb": [[x, srgb_encode(x)] for x in (0, 0.001, 0.0031308, 0.0040, 0.18, 0.5, 0.9, 1)],

@@ -36,7 +36,7 @@ export { filmic, srgbDecode, srgbEncode, toneGlsl, type ToneCurve } from "./outp
 export { fitClipping, frameAutomatically, subpixelPositions } from "./output/camera.js";
 export { bandOf, coefficientCount, evaluateHarmonics, kMaxBands } from "./sh/basis.js";
 export { HarmonicRotation, matrixOfQuaternion } from "./sh/rotation.js";
-export { capMoments, clampedCosineMoments, phongLobeMoments, turnZonal } from "./sh/zonal.js";
+export { capMoments, clampedCosineMoments, phongLobeMoments, sharpestNonNegative, turnZonal } from "./sh/zonal.js";
 export {
   polynomialDeltaT,
   refraction,
@@ -49,4 +49,10 @@ export {
 } from "./sky/sun_position.js";
 export { LambentSky, Sky, type SkyModel, type SkyRequest, type SkySun } from "./sky/sky.js";
 export { AerialPerspective, LambentAir, type AirBetween } from "./sky/air.js";
-export { hannWindow, lanczosWindow, minimalRingingWindow } from "./sh/window.js";
+export {
+  hannWindow,
+  lanczosWindow,
+  leastSofteningOfZonal,
+  leastSofteningWindow,
+  minimalRingingWindow,
+} from "./sh/window.js";

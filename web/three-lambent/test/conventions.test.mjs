@@ -10,6 +10,7 @@ import {
   filmic,
   HarmonicRotation,
   LambentLight,
+  leastSofteningOfZonal,
   phongLobeMoments,
   srgbDecode,
   srgbEncode,
@@ -42,6 +43,8 @@ it("cosine factors and lobe moments", () => {
   near(clampedCosineMoments(table.cosineFactors.length), table.cosineFactors, 1e-12, "cosine");
   for (const { exponent, values } of table.lobeMoments)
     near(phongLobeMoments(values.length, exponent), values, 1e-12, `lobe ${exponent}`);
+  for (const { bands, exponent, window } of table.softLobes)
+    near(leastSofteningOfZonal(phongLobeMoments(bands, exponent)), window, 1e-9, `soft ${exponent}`);
 });
 
 it("discs", () => {

@@ -96,9 +96,9 @@ function next(count: number, now: number, by: number, open: (index: number) => u
 const brighter = (exposure: number, by: number): number =>
   Math.max(-60, Math.min(60, Math.round((exposure + by) * 300) / 300));
 
-/** None, the least, Hann's and Lanczos's in turn; as wide as the light has bands. */
+/** The usual one, none, the least, Hann's and Lanczos's in turn; as wide as the light has bands. */
 function windowAfter(window: ViewState["window"]): ViewState["window"] {
-  const all = ["none", "minimal", "hann", "lanczos"] as const;
+  const all = ["auto", "none", "minimal", "hann", "lanczos"] as const;
   const now = all.findIndex((each) => window.startsWith(each));
   return all[(now + 1) % all.length]!;
 }

@@ -141,9 +141,10 @@ export class Panel {
     const play = toggle("Let it go round", "Turn the light slowly (A)", (on) =>
       actions.play(on));
     const discs = new DiscControls(actions);
-    const window = segments<"none" | "minimal" | "hann" | "lanczos">(
+    const window = segments<"auto" | "none" | "minimal" | "hann" | "lanczos">(
       "Windowing",
       [
+        { value: "auto", label: "Gloss", title: "Glossy surfaces alone, by the least that leaves no rings" },
         { value: "none", label: "None", title: "The harmonics as they are" },
         { value: "minimal", label: "Least", title: "The least that keeps radiance above zero" },
         { value: "hann", label: "Hann" },
@@ -151,7 +152,7 @@ export class Panel {
       ],
       (kind) =>
         actions.change((view) => {
-          view.window = kind === "none" || kind === "minimal" ? kind : `${kind}:${width}`;
+          view.window = kind === "hann" || kind === "lanczos" ? `${kind}:${width}` : kind;
         }),
     );
     let width = 5;

@@ -166,8 +166,9 @@ export class Stage {
     this.light =
       this.environment?.light(bands).clone().rotate(turn) ?? new LambentLight(bands);
     for (const disc of discs) this.light.addDisc(disc);
+    const { window } = view;
     const weights = this.light.windowWeights(
-      view.window === "hann" || view.window === "lanczos" ? `${view.window}:${bands}` : view.window,
+      window === "auto" ? "none" : window === "hann" || window === "lanczos" ? `${window}:${bands}` : window,
     );
     this.light.attenuate(weights);
 
@@ -201,6 +202,7 @@ export class Stage {
     asset.macro = view.macro;
     asset.viewDependent = view.viewDependent;
     asset.lobeExponent = view.lobe;
+    asset.softLobes = window === "auto";
     asset.unlit = unlit;
     asset.setLight(this.light);
     asset.setSun(view.sunShadow === "sharp" ? sunOf(allDiscs) : null, weights);

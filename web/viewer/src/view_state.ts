@@ -43,8 +43,8 @@ export interface ViewState {
   object: { rotation: Rotation; translation: Triple };
   environment: { source: string; rotation: Rotation };
   discs: DiscState[];
-  /** Without a width: as many bands as the light has. */
-  window: WindowName | "hann" | "lanczos";
+  /** auto: glossy lobes are softened, not the light. Without a width: as many bands as it has. */
+  window: WindowName | "auto" | "hann" | "lanczos";
   transfer: TransferChoice;
   /** Of the light's Sun, if it has one: on diffuse surfaces. */
   sunShadow: "sharp" | "soft";
@@ -75,7 +75,7 @@ export function defaultView(): ViewState {
     object: { rotation: [0, 0, 0, 1], translation: [0, 0, 0] },
     environment: { source: "uniform:1", rotation: [0, 0, 0, 1] },
     discs: [],
-    window: "none",
+    window: "auto",
     transfer: "best",
     sunShadow: "sharp",
     air: null,
@@ -137,9 +137,9 @@ class Reader {
     return value as T;
   }
   window(value: unknown): ViewState["window"] {
-    const match = typeof value === "string" && /^(none|minimal|(hann|lanczos)(:(.+))?)$/.exec(value);
+    const match = typeof value === "string" && /^(auto|none|minimal|(hann|lanczos)(:(.+))?)$/.exec(value);
     if (!match || (match[4] !== undefined && !(Number(match[4]) > 0)))
-      this.fail("window", "must be none, minimal, hann:WIDTH or lanczos:WIDTH");
+      this.fail("window", "must be auto, none, minimal, hann:WIDTH or lanczos:WIDTH");
     return value as ViewState["window"];
   }
   camera(value: unknown): LookAt | null {

@@ -19,7 +19,9 @@ import type { AirMode } from "../materials/air-source.js";
 import { hasGrain } from "../materials/coverage.js";
 import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
 import type { AerialPerspective } from "../sky/air.js";
+import { bandOf } from "../sh/basis.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
+import { leastSofteningWindow } from "../sh/window.js";
 import { infoOf, kindsOf, type AssetInfo, type AssetKind } from "./info.js";
 import { adviseOnDrawing, adviseOnPlace, type Drawn } from "./advice.js";
 import { AssetAir, type AirOptions } from "./asset-air.js";
@@ -53,6 +55,13 @@ export class LambentAsset {
   filter = true;
   /** Exponent of glossy lobes, ≥ 0; null: the materials' own. Default null. */
   lobeExponent: number | null = null;
+  /**
+   * Few bands cannot hold a narrow lobe, nor a small light: both ring. On: glossy lobes, and the light
+   * that reaches them, are softened by the least that leaves neither negative, so that polished
+   * surfaces show no dark or coloured rings. Off: as the harmonics have them, for comparison with other
+   * renderers. Diffuse surfaces are the same either way.
+   */
+  softLobes = true;
   /**
    * Texels of a side of the cube maps in which mirrors see the asset itself; 0: they show the
    * environment alone, as they do on devices that cannot draw into half floats. Default 256.
@@ -319,6 +328,7 @@ export class LambentAsset {
       viewDependent: this.viewDependent,
       filter: this.filter,
       lobeExponent: this.lobeExponent,
+      softLobes: this.softLobes,
       unlit: this.unlit,
       samples: this.samples,
       sample: this.sample,
@@ -347,6 +357,7 @@ export class LambentAsset {
     const state = [
       light?.version ?? "dark",
       this.lobeExponent,
+      this.softLobes,
       rotation.x,
       rotation.y,
       rotation.z,
@@ -354,12 +365,12 @@ export class LambentAsset {
     ].join();
     if (!due && state === this.done) return false;
     const lights = this.turnLight(light, rotation.invert());
-    for (const mesh of this.relit) mesh.relight(renderer, this.screen, lights, this.lobeExponent);
+    for (const mesh of this.relit) mesh.relight(renderer, this.screen, lights, this);
     this.done = state;
     return true;
   }
 
-  /** Into the asset's frame: all of the light, the Sun's share of it, and the rest. */
+  /** Into the asset's frame: all of the light, the Sun's share of it, the rest, what lobes see. */
   private turnLight(light: LambentLight | null, assetFromWorld: Quaternion): Lights {
     const { assetLight: whole, sunShare: sun } = this;
     whole.fill(0);
@@ -372,7 +383,16 @@ export class LambentAsset {
       this.rotation.apply(light.coefficients, whole, bands, 3);
       if (this.sun.shines) this.rotation.apply(this.sun.share(bands).coefficients, sun, bands, 3);
     }
-    return { whole, sun, withoutSun: whole.map((value, i) => value - sun[i]) };
+    const lobes = whole.slice();
+    if (this.softLobes && this.hasLobes) {
+      const weights = leastSofteningWindow(whole, this.source.description.bands);
+      lobes.forEach((value, i) => (lobes[i] = weights[bandOf(Math.floor(i / 3))] * value));
+    }
+    return { whole, sun, withoutSun: whole.map((value, i) => value - sun[i]), lobes };
+  }
+
+  private get hasLobes(): boolean {
+    return this.relit.some(({ transfer }) => transfer?.matrices);
   }
 
   /** @internal Shafts of light only where there is a Sun to throw them. */
@@ -484,6 +504,7 @@ const kSettings = [
   "viewDependent",
   "filter",
   "lobeExponent",
+  "softLobes",
   "mirrorSize",
   "unlit",
   "samples",

@@ -32,6 +32,7 @@ import { incidentGroups } from "../materials/group-macros.js";
 import { RelitMaterial, type RelitShaders } from "../materials/relit-material.js";
 import { patchShaders, surfaceShaders } from "../materials/relit-shaders.js";
 import { bandOf } from "../sh/basis.js";
+import { leastSofteningOfZonal } from "../sh/window.js";
 import { phongLobeMoments } from "../sh/zonal.js";
 import type { AssetSource } from "./asset-source.js";
 import { kindOf, macroOf, type TransferChoice } from "./choices.js";
@@ -45,6 +46,7 @@ export interface Choices {
   viewDependent: boolean;
   filter: boolean;
   lobeExponent: number | null;
+  softLobes: boolean;
   unlit: boolean;
   samples: number;
   sample: number;
@@ -55,11 +57,15 @@ export interface Choices {
   captured: boolean;
 }
 
-/** [coefficient][3], in the asset's frame: of all light, of a sharp Sun's share, and of the rest. */
+/**
+ * [coefficient][3], in the asset's frame: of all light, of a sharp Sun's share, of the rest, and of what
+ * lobes see.
+ */
 export interface Lights {
   whole: Float64Array;
   sun: Float64Array;
   withoutSun: Float64Array;
+  lobes: Float64Array;
 }
 
 /** What all meshes of an instance share. */
@@ -280,7 +286,7 @@ export class RelitMesh {
       const lit = this.add(
         renderer,
         { name: `${name} matrices`, numbers, shape, rows },
-        { glossy: true },
+        { glossy: true, light: "lobes" },
         matrices.glossy,
       );
       uniforms.incidentLit = { value: lit.target.texture };
@@ -384,14 +390,16 @@ export class RelitMesh {
     renderer: WebGLRenderer,
     screen: FullScreenPass,
     lights: Lights,
-    lobeExponent: number | null,
+    { lobeExponent, softLobes }: Pick<Choices, "lobeExponent" | "softLobes">,
   ): void {
     for (const { texture, pass, glossy, scales, light } of this.lits) {
       const factors = new Float32Array(4 * Math.ceil(texture.rows / 4)).fill(1);
       if (glossy) {
         const exponent = lobeExponent ?? this.transfer!.matrices!.lobeExponent;
         const moments = phongLobeMoments(Math.sqrt(texture.rows), exponent);
-        for (let i = 0; i < texture.rows; ++i) factors[i] = moments[bandOf(i)];
+        const window = softLobes ? leastSofteningOfZonal(moments) : moments.map(() => 1);
+        for (let i = 0; i < texture.rows; ++i)
+          factors[i] = window[bandOf(i)] * moments[bandOf(i)];
       }
       scales?.forEach((scale, i) => (factors[i] *= scale));
       pass.run(renderer, screen, lights[light], factors);

@@ -7,6 +7,7 @@
 // band, since each band's share of f at a point is kept.
 
 import { evaluateHarmonics } from "./basis.js";
+import { legendre, sharpestNonNegative } from "./zonal.js";
 
 /** (1+cos(πl/w))/2 for every band, 0 for l ≥ w. */
 export function hannWindow(bands: number, width: number): Float64Array {
@@ -209,4 +210,70 @@ export function minimalRingingWindow(coefficients: ArrayLike<number>, bands: num
     if (holds) break;
   }
   return laplacianWindow(bands, lambda);
+}
+
+/** By bands: the basis at the directions that are looked at. */
+const pointsOf = new Map<number, Float64Array[]>();
+
+/** The least s that leaves (1−s) · plain + s · soft non-negative at all points that it sees. */
+class LeastShare {
+  private share = 0;
+
+  see(plain: number, soft: number): void {
+    if (plain < 0) this.share = soft <= 0 ? 1 : Math.max(this.share, plain / (plain - soft));
+  }
+  window(soft: Float64Array): Float64Array {
+    return soft.map((moment) => 1 - this.share + this.share * moment);
+  }
+}
+
+/**
+ * The least of the family (1−s) + s ĥ_l, 0 ≤ s ≤ 1, with the ĥ_l of {@link sharpestNonNegative}, that
+ * leaves the radiance of every channel non-negative, but for dips below .5% of the peak between the
+ * directions that are looked at. It keeps more of small lights than {@link minimalRingingWindow}, and
+ * can follow a light that changes in every frame.
+ *
+ * @param coefficients bands² × 3 numbers: [coefficient][channel]
+ */
+export function leastSofteningWindow(coefficients: ArrayLike<number>, bands: number): Float64Array {
+  const soft = sharpestNonNegative(bands);
+  let points = pointsOf.get(bands);
+  if (!points) {
+    points = fibonacci(100 * bands * bands).map(
+      ([x, y, z]) => evaluateHarmonics(bands, x, y, z) as Float64Array,
+    );
+    pointsOf.set(bands, points);
+  }
+  const least = new LeastShare();
+  for (const y of points)
+    for (let c = 0; c < 3; ++c) {
+      let [plain, softened] = [0, 0];
+      for (let l = 0, i = 0; l < bands; ++l) {
+        let share = 0;
+        for (; i < (l + 1) * (l + 1); ++i) share += coefficients[3 * i + c] * y[i];
+        plain += share;
+        softened += soft[l] * share;
+      }
+      least.see(plain, softened);
+    }
+  return least.window(soft);
+}
+
+/** The same for a zonal function's moments, such as a lobe's. */
+export function leastSofteningOfZonal(moments: Float64Array): Float64Array {
+  const bands = moments.length;
+  const soft = sharpestNonNegative(bands);
+  const least = new LeastShare();
+  const angles = 100 * bands;
+  for (let i = 0; i <= angles; ++i) {
+    const p = legendre(bands, Math.cos((Math.PI * i) / angles));
+    let [plain, softened] = [0, 0];
+    p.forEach((each, l) => {
+      const share = (2 * l + 1) * moments[l] * each;
+      plain += share;
+      softened += soft[l] * share;
+    });
+    least.see(plain, softened);
+  }
+  return least.window(soft);
 }

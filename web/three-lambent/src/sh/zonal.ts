@@ -6,6 +6,7 @@
 // - sloan2002precomputed: eq. 6 and Appendix: convolution and turning of symmetric functions.
 
 import { evaluateHarmonics } from "./basis.js";
+import { gaussLegendre } from "./quadrature.js";
 
 /** max(cos θ, 0): π, 2π/3, π/4, 0, −π/24, … */
 export function clampedCosineMoments(bands: number): Float64Array {
@@ -53,6 +54,45 @@ export function phongLobeMoments(bands: number, exponent: number): Float64Array 
     else moments[l] = (moments[l - 2] * (exponent - l + 2)) / (exponent + l + 1);
   }
   return moments;
+}
+
+/** P_0 … P_{count−1} at t. */
+export function legendre(count: number, t: number): Float64Array {
+  const p = new Float64Array(count);
+  for (let l = 0; l < count; ++l)
+    p[l] = l === 0 ? 1 : l === 1 ? t : ((2 * l - 1) * t * p[l - 1] - (l - 1) * p[l - 2]) / l;
+  return p;
+}
+
+/**
+ * The sharpest function of n bands, n ≥ 1, that is nowhere negative: unit integral, largest ĥ_1.
+ * What is convolved with it, and was not negative, does not ring. As lambent/sh/zonal.cpp, which
+ * derives it.
+ */
+export function sharpestNonNegative(bands: number): Float64Array {
+  const m = Math.floor((bands - 1) / 2);
+  const even = bands % 2 === 0;
+  const nodal = (t: number) => {
+    const p = legendre(m + 3, t);
+    return even ? (p[m + 1] + p[m + 2]) / (1 + t) : p[m + 1];
+  };
+  let high = 1;
+  let low = 1;
+  while (nodal(low) > 0 && low > -0.9) low -= 0.25 / bands ** 2;
+  for (let i = 0; i < 60; ++i) {
+    const middle = (low + high) / 2;
+    if (nodal(middle) > 0) high = middle;
+    else low = middle;
+  }
+  const largest = (low + high) / 2;
+  const rule = gaussLegendre(bands + 1, -1, 1); // no node is a root of what it is divided by
+  const moments = new Float64Array(bands);
+  rule.nodes.forEach((t, i) => {
+    const root = nodal(t) / (t - largest);
+    const h = rule.weights[i] * (even ? 1 + t : 1) * root * root;
+    legendre(bands, t).forEach((p, l) => (moments[l] += h * p));
+  });
+  return moments.map((each) => each / moments[0]);
 }
 
 /** Coefficients of a zonal function turned to a unit axis: f_lm = ĥ_l y_lm(axis). */
