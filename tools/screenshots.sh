@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The viewers as they look, for the README: docs/images/viewer-native.png, viewer-surroundings.png
-# (light captured from moving lamps), viewer-web.png and viewer-web-phone.png.
+# (light captured from moving lamps), viewer-web.png and viewer-web-phone.png; and the light that goes
+# round the page's still life, relight.webp.
 # usage: tools/screenshots.sh BUILD [FOLDER]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -33,6 +34,19 @@ xvfb-run -a "$lambent" view "$work/bunny.glb" build/inputs/hdri/sunset.exr \
   --script "$work/native.txt"
 xvfb-run -a "$lambent" view "$work/bunny.glb" uniform:0.1 --surroundings demo \
   --script "$work/surroundings.txt"
+assets=$build/apps/share/lambent/viewer/assets
+cat > "$work/round.json" <<EOF
+{"lambent": "view", "version": 1, "exposure": 0.3, "samples": 16,
+ "camera": {"position": [0.85, 1.08, 3.1], "target": [0.02, 0.36, -0.3], "verticalFov": 26},
+ "environment": {"source": "$assets/studio.hdr"}}
+EOF
+frames=()
+for degrees in $(seq 0 10 350); do
+  frames+=("$work/round-$degrees.png")
+  "$lambent" render "$assets/still-life.glb" --view "$work/round.json" --rotate-y "$degrees" \
+    --size 720x405 -o "${frames[-1]}" --quiet > "$work/log"
+done
+img2webp -loop 0 -lossy -q 60 -d 80 "${frames[@]}" -o "$folder/relight.webp"
 node tests/web/stage.mjs "$PWD" "$build/tests/web/tree" web/three-lambent
 LAMBENT_TOOL=$lambent LAMBENT_WEB_MODULES=$build/tests/web/tree/web/three-lambent \
   node tools/screenshots.mjs "$folder"
