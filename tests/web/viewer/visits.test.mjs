@@ -76,17 +76,28 @@ describe("a link", () => {
   });
 
   it("that is damaged, or newer, says so over the page's own scene", async () => {
-    for (const [hash, words] of [
+    for (const [i, [hash, words]] of [
       ["#view=%7B%22lambent%22%3A", /cannot be read.*part of the link is missing/],
+      ["#src=files/none.glb", /none\.glb: the server answers 404/],
       ["#asset=matt.glb&view=%7B%22lambent%22%3A%22view%22%2C%22version%22%3A2%7D", /newer page/],
       ["#view=%7B%22lambent%22%3A%22view%22%2C%22exposure%22%3A%22much%22%7D", /"exposure"/],
       ["#nonsense", /neither an asset nor a view/],
-      ["#src=files/none.glb", /none\.glb: the server answers 404/],
-    ]) {
-      const page = await open(hash);
-      assert.match((await errors(page)).join(), words, hash);
-      assert.equal(await shown(page), "matt.glb", hash);
-      await opened.context.close();
+      [`#view=${encodeURIComponent('{"lambent":"view","environment":{"source":"sky:hue=1"}}')}`,
+        /no key 'hue'/],
+    ].entries()) {
+      const { page } = opened ?? {};
+      if (i >= 2) {
+        await page.evaluate((text) => {
+          window.lambent.viewer.messages.clearErrors();
+          location.hash = text;
+        }, hash);
+        await page.locator(".message.error").waitFor();
+      } else {
+        await opened?.context.close();
+        await open(hash);
+      }
+      assert.match((await errors(opened.page)).join(), words, hash);
+      assert.equal(await shown(opened.page), "matt.glb", hash);
     }
   });
 
@@ -111,6 +122,15 @@ describe("a link", () => {
     await page.waitForFunction(() => window.lambent.view().exposure === 0.7);
     assert.deepEqual(await view(page), saved);
     assert.deepEqual(opened.complaints, []);
+    // A light of another server's list.
+    const other = { ...saved, exposure: -1, environment: { source: "other.exr" } };
+    const link = new URLSearchParams({ asset: "matt.glb", view: JSON.stringify(other) });
+    await page.evaluate((text) => (location.hash = text), String(link));
+    await page.locator(".message.error").waitFor();
+    assert.match((await errors(page)).join(), /other\.exr: the page has no such light.*Drop/);
+    await drop(page, { name: "other.exr", bytes: environmentExr });
+    await page.waitForFunction(() => window.lambent.view().exposure === -1);
+    assert.equal(await shown(page), "matt.glb");
   });
 });
 

@@ -3,7 +3,7 @@
 //   #src=ADDRESS  one from an address            &light=NAME  a file of light that the view takes
 //   #file=NAME    a file of somebody's disk
 // What is a file of somebody's disk no link can carry: whoever opens the link opens it by hand.
-import { termsOf } from "./source";
+import { isFile, termsOf } from "./source";
 import type { Library, Opened } from "./library";
 import { messageOf } from "./messages";
 import { parseView, viewToJson, type ViewState } from "./view_state";
@@ -89,7 +89,13 @@ export class Links {
     }
     if (link === null) return false;
     const missing = this.missing(link);
-    if (missing.length === 0) return this.show(link);
+    if (missing.length === 0) {
+      if (await this.show(link)) return true;
+      // A light of another page's list: once it is here, the link can be shown.
+      const lights = this.unknownLights(link);
+      if (lights.length > 0) this.waiting = { ...link, lights: [...link.lights, ...lights] };
+      return false;
+    }
     this.waiting = link;
     const files = missing.join(" and ");
     const [the, them] = missing.length > 1 ? ["the files", "them"] : ["the file", "it"];
@@ -120,6 +126,11 @@ export class Links {
     const absent = lights.filter((each) => !known.has(each));
     if (asset !== null && find(library, asset) === undefined) absent.unshift(asset.name);
     return absent;
+  }
+  private unknownLights({ view }: Link): string[] {
+    const known = new Set(this.viewer.library.names());
+    const terms = view === null ? [] : termsOf(view.environment.source, known);
+    return terms.filter((each) => isFile(each) && !known.has(each));
   }
   private show({ asset, view }: Link): Promise<boolean> {
     const { viewer } = this;

@@ -82,6 +82,9 @@ export function termsOf(text: string, files: Iterable<string>): string[] {
   return terms;
 }
 
+/** Whether a term is the name of a file: it begins with no other word. */
+export const isFile = (term: string): boolean => !/^(uniform$|[a-z]+:)/.test(term);
+
 function endOfTerm(text: string): number {
   const sky = text.startsWith("sky:");
   const analytic = sky || /^(uniform|disc:|directional:)/.test(text);
