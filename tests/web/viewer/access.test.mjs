@@ -1,18 +1,14 @@
 // The page for everybody: no violation that axe-core knows in any of its states, and everything by
 // the keyboard alone.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { after, afterEach, before, describe, it } from "node:test";
 import { mattScene } from "../../../web/three-lambent/test/support/scenes.mjs";
-import { drop, launch, openPage, pageFolder, serve } from "./session.mjs";
+import { axe, drop, launch, openPage, pageFolder, serve } from "./session.mjs";
 
-const modules = process.env.LAMBENT_VIEWER_MODULES;
-const { resolve } = createRequire(join(modules, "package.json"));
-const axe = readFileSync(resolve("axe-core/axe.min.js"), "utf8");
 let folder, server, browser, opened;
 
 before(async () => {
@@ -34,7 +30,7 @@ const open = async (options) => (opened = await openPage(browser, server.url, op
 
 /** Fails with what is wrong and where. */
 async function assertAccessible(page, state) {
-  await page.evaluate(axe);
+  await page.evaluate(axe());
   const violations = await page.evaluate(async () =>
     (await window.axe.run(document)).violations.map(({ id, help, nodes }) =>
       `${id}: ${help}: ${nodes.map((each) => each.target.flat().join(" ")).join(", ")}`));

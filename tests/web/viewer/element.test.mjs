@@ -5,20 +5,15 @@ import {
   existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync,
 } from "node:fs";
 import { createServer } from "node:http";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { after, before, describe, it } from "node:test";
 import { environmentExr, mattScene } from "../../../web/three-lambent/test/support/scenes.mjs";
 import { decodePng, meanDifference } from "./png.mjs";
-import { kSize, launch, tool } from "./session.mjs";
+import { axe, kSize, launch, tool, viewerModules } from "./session.mjs";
 
 const kMost = 250_000; // bytes of lambent-viewer.js, three.js in it, as gzip sends them
-const modules = process.env.LAMBENT_VIEWER_MODULES; // the page's folder, built
-const { resolve } = createRequire(join(modules, "package.json"));
-const axe = readFileSync(resolve("axe-core/axe.min.js"), "utf8");
-
 const kPage = `<!doctype html><html lang="en"><title>A page</title>
 <style>body { margin: 0 } lambent-viewer { width: ${kSize}px; height: ${kSize}px }</style>
 <script type="module" src="lambent-viewer.js"></script>
@@ -29,7 +24,7 @@ const complaints = [];
 
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), "lambent-element-"));
-  execFileSync(process.execPath, [join(modules, "scripts/pack-element.mjs"), folder]);
+  execFileSync(process.execPath, [join(viewerModules, "scripts/pack-element.mjs"), folder]);
   writeFileSync(join(folder, "index.html"), kPage);
   writeFileSync(join(folder, "scene.glb"), mattScene);
   writeFileSync(join(folder, "light.exr"), environmentExr);
@@ -129,7 +124,7 @@ describe("<lambent-viewer>", () => {
     const difference = meanDifference(seen, decodePng(readFileSync(join(folder, "view.png"))));
     console.log(`by lambent render and by the element: ${difference.toFixed(3)}/255`);
     assert.ok(difference < 0.5, `${difference}`);
-    await page.evaluate(axe);
+    await page.evaluate(axe());
     const violations = await page.evaluate(async () =>
       (await window.axe.run(document)).violations.map(({ id, nodes }) =>
         `${id}: ${nodes.map((each) => each.target.flat().join(" "))}`));

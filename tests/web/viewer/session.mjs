@@ -1,5 +1,6 @@
 // The tool's server and a browser that shows its page.
 import { spawn } from "node:child_process";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 
@@ -7,6 +8,12 @@ export const tool = process.env.LAMBENT_TOOL ?? "lambent";
 /** Where node finds playwright-core: a folder with node_modules. */
 const modules = process.env.LAMBENT_WEB_MODULES ?? process.cwd();
 
+/** The page's own folder, built, with its node_modules. */
+export const viewerModules = process.env.LAMBENT_VIEWER_MODULES ?? process.cwd();
+/** Text of axe-core, to be evaluated in a page. */
+export const axe = () =>
+  readFileSync(
+    createRequire(join(viewerModules, "package.json")).resolve("axe-core/axe.min.js"), "utf8");
 /** Where the tool finds its page. */
 export const pageFolder = resolve(dirname(tool), "../share/lambent/viewer");
 

@@ -262,6 +262,7 @@ describe("the page", () => {
     await page.evaluate(() => window.lambent.viewer.openAsset(0));
     await settled(page);
     assert.equal(await page.locator(".bake").isVisible(), false);
+    assert.doesNotMatch((await notes(page)).join(), /stripped/, "that is said no longer");
     assert.deepEqual(opened.complaints, []);
   });
 

@@ -20,15 +20,19 @@ export class Messages {
     const message = this.add(text, "note");
     setTimeout(() => message.remove(), 1000 * kNoteSeconds);
   }
-  /** A note that stays until it is closed; `offer`: something to do about it. */
-  stay(text: string, offer?: { label: string; title: string; press(): void }): void {
+  /**
+   * A note that stays until it is closed; `offer`: something to do about it. Returns how to close it.
+   */
+  stay(text: string, offer?: { label: string; title: string; press(): void }): () => void {
     const message = this.add(text, "note");
-    if (offer === undefined) return;
+    const close = () => message.remove();
+    if (offer === undefined) return close;
     const press = () => {
       message.remove();
       offer.press();
     };
     message.querySelector(".close")!.before(button(offer.label, offer.title, press));
+    return close;
   }
   /** Closes the newest; false: there is none. */
   closeOne(): boolean {

@@ -10,8 +10,9 @@ import type { Viewer } from "./viewer";
 export class Session {
   private readonly links: Links;
   private memory: Memory | null = null;
-  /** Of the asset that was spoken of last. */
+  /** The asset that was spoken of last, and how to take that back. */
   private told: unknown = null;
+  private untell: () => void = () => {};
 
   constructor(private readonly viewer: Viewer) {
     this.links = new Links(viewer);
@@ -88,10 +89,11 @@ export class Session {
     const { loaded } = this.viewer.current;
     if (loaded === this.told || loaded === null) return;
     this.told = loaded;
+    this.untell();
     if (loaded.plain === null) return;
     const { name, stripped } = loaded;
     const line = bakeLine(name);
-    this.viewer.messages.stay(
+    this.untell = this.viewer.messages.stay(
       stripped
         ? `${name} was stripped by an optimiser: it had been baked, and what wrote it since ` +
             "dropped its transfer. It is shown as it is, under three.js's own light. Bake what " +
