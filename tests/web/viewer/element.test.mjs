@@ -110,6 +110,10 @@ describe("<lambent-viewer>", () => {
       src: "matt.glb?v=2", environment: "light.exr", poster: "poster.svg", rotation: "70",
       exposure: "-0.5", transfer: "shadowed", alt: "A ball on a floor", bare: "",
     });
+    assert.ok(await page.evaluate(async () => {
+      const { LambentViewerElement } = await import("/lambent-viewer.js");
+      return document.querySelector("lambent-viewer") instanceof LambentViewerElement;
+    }), "its class is exported");
     assert.ok(posterAtFirst, "the poster is there until there is a picture");
     assert.deepEqual(events.at(-1), { type: "load", src: "matt.glb?v=2", baked: true });
     const shares = events.flatMap((each) => (typeof each.share === "number" ? [each.share] : []));

@@ -8,10 +8,17 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
 import { environmentExr, mattScene } from "../../../web/three-lambent/test/support/scenes.mjs";
+import { withJson } from "./glb.mjs";
 import { decodePng, meanDifference } from "./png.mjs";
 import { drop, launch, openPage, picture, serve, settled, tool, view } from "./session.mjs";
 
 let folder, server, browser, opened;
+
+/** As Draco's encoders declare it. */
+const withDraco = (glb) => {
+  const name = "KHR_draco_mesh_compression";
+  return withJson(glb, { extensionsUsed: [name], extensionsRequired: [name] });
+};
 
 before(async () => {
   folder = mkdtempSync(join(tmpdir(), "lambent-page-"));
@@ -150,6 +157,7 @@ describe("the page", () => {
     const cases = [
       ["cut.glb", whole.subarray(0, whole.length >> 1), /cut\.glb/],
       ["not.glb", Buffer.from("something else"), /not\.glb: not a binary glTF/],
+      ["packed.glb", withDraco(mattScene), /packed\.glb.*Draco.*lambent bake packed\.glb/],
       ["cut.exr", environmentExr.subarray(0, 900), /cut\.exr/],
       ["cut.hdr", Buffer.from("#?RADIANCE\n"), /cut\.hdr/],
       ["other.json", Buffer.from("{"), /other\.json/],

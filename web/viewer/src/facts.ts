@@ -1,5 +1,6 @@
 // What the controls say about the asset that is shown: figures, and why a choice is not there.
 import type { TransferChoice } from "three-lambent";
+import { bakeLine } from "./bake_line";
 import type { History } from "./history";
 import type { LoadedAsset } from "./load_asset";
 import type { PanelFacts } from "./panel";
@@ -9,13 +10,6 @@ const count = (value: number): string => value.toLocaleString("en");
 
 function bytes(value: number): string {
   return value < 1e6 ? `${(value / 1e3).toFixed(0)} kB` : `${(value / 1e6).toFixed(1)} MB`;
-}
-
-/** The line that bakes a file, for a shell. */
-export function bakeLine(name: string): string {
-  const quoted = (text: string) =>
-    /^[\w.][\w.-]*$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
-  return `lambent bake ${quoted(name)} -o ${quoted(name.replace(/(\.glb)?$/i, "-baked.glb"))}`;
 }
 
 function figures({ asset, plain, bytes: size }: LoadedAsset): string {

@@ -3,6 +3,7 @@
 import { GLTFLoader, type GLTF } from "three/addons/loaders/GLTFLoader.js";
 import type { Camera, Material, Mesh, Object3D, Texture } from "three";
 import { LambentAsset, LambentLoaderPlugin } from "three-lambent";
+import { bakeLine } from "./bake_line";
 import { PlainScene } from "./plain_scene";
 import { messageOf } from "./messages";
 
@@ -27,6 +28,11 @@ export interface PlainAsset extends Loaded {
 export type LoadedAsset = RelitAsset | PlainAsset;
 
 const kGlbMagic = 0x46546c67;
+/** What GLTFLoader says of what it cannot unpack, and what that is. The tool reads both. */
+const kPacked: readonly [string, string][] = [
+  ["DRACOLoader", "Draco"],
+  ["MeshoptDecoder", "meshopt"],
+];
 
 /** Throws an Error with a message for the person who opened the file. */
 export async function loadAsset(bytes: ArrayBuffer, name: string): Promise<LoadedAsset> {
@@ -39,7 +45,13 @@ export async function loadAsset(bytes: ArrayBuffer, name: string): Promise<Loade
     gltf = await loader.parseAsync(bytes, "");
   } catch (error) {
     const reason = messageOf(error);
-    throw new Error(`${name}: cannot be read: ${reason}`);
+    const packed = kPacked.find(([sign]) => reason.includes(sign));
+    throw new Error(
+      packed === undefined
+        ? `${name}: cannot be read: ${reason}`
+        : `${name}: it is compressed (${packed[1]}), which is not read here before it is baked: ` +
+            bakeLine(name),
+    );
   }
   const { scene: root, cameras } = gltf;
   const common = { name, root, cameras, bytes: bytes.byteLength };

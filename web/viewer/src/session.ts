@@ -1,6 +1,6 @@
 // What the page opens by itself: what its address names, else what was open when it was left, else
 // the first of its list. And what is said of an asset that was not baked.
-import { bakeLine } from "./facts";
+import { bakeLine } from "./bake_line";
 import { leftOut, linkOf, Links, linkTo } from "./link";
 import { fetchManifest } from "./manifest";
 import { messageOf } from "./messages";
