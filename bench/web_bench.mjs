@@ -104,7 +104,7 @@ async function landscape(name, z) {
       const camera = { position: [0, 2.5, z], target: [0, 2.2, 0], verticalFov: 50 };
       const environment = { source: "sky:sun-elevation=20,sun-azimuth=200" };
       await showView({ lambent: "view", camera, environment, exposure: -4 });
-      await viewer.showAir(true);
+      await viewer.sky.showAir(true);
       const stage = viewer.current;
       const gl = stage.renderer.getContext();
       const pixel = new Uint8Array(4);

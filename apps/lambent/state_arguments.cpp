@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/lambent/web_lights.h"
 #include "lambent/sources/source.h"
 #include "lambent/view/placement.h"
 #include "lambent/view/state_light.h"
@@ -30,6 +31,7 @@ Result<view::ViewState> StateArguments::read(const CLI::App& app, const LightArg
                                              DevelopmentArguments& development) const {
   Result<view::ViewState> state = view::readViewState(path);
   if (!state) return state;
+  state->environment = withPageLights(state->environment, path);
   if (app.count("--light")) state->environment = light.source;
   if (app.count("--rotate-y"))
     state->environmentRotation =

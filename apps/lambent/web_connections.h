@@ -18,10 +18,13 @@ struct ConnectionLimits {
   /// or, if all are being answered, of the one that takes the longest to hear its answer.
   std::size_t connections = 128;
   std::size_t requestsPerConnection = 1000;
-  std::size_t requestBytes = 64 << 10;        ///< of one request: its line and its headers
-  std::chrono::milliseconds idle{5000};       ///< from one request to the first byte of the next
-  std::chrono::milliseconds request{5000};    ///< from its first byte to its last
-  std::chrono::milliseconds writing{20'000};  ///< for each piece of an answer (up to 256 KiB)
+  std::size_t requestBytes = 64 << 10;      ///< of one request: its line and its headers
+  std::chrono::milliseconds idle{5000};     ///< from one request to the first byte of the next
+  std::chrono::milliseconds request{5000};  ///< from its first byte to its last
+  /// For each piece of an answer (up to 256 KiB). A page that compiles its shaders, sleeps in the
+  /// background or stands in a debugger takes nothing in meanwhile, and a browser calls an answer
+  /// that was cut off "failed to fetch". Who takes that long gives way to others, not to the clock.
+  std::chrono::milliseconds writing = std::chrono::hours(1);
 };
 
 /// httplib::Server with a thread for each connection, within limits. Timeouts and a task queue that

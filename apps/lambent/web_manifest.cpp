@@ -122,9 +122,11 @@ Result<ServedFiles> filesToServe(const fs::path& page, const fs::path& asset,
     const auto baked = asset::isAsset(asset);
     if (!baked) return baked.error();
     if (!*baked)
-      return badInput(fmt::format(
-          "{}: it has not been baked, so there is nothing to relight: lambent bake {} -o baked.glb",
-          asset.string(), asset.string()));
+      console.note(
+          "not-baked",
+          fmt::format("{}: it has not been baked: the page shows it as it is, under a light "
+                      "without shadows. To relight it: lambent bake {} -o baked.glb",
+                      asset.string(), asset.string()));
     files["/files/asset.glb"] = fs::absolute(asset);
     putFirst(manifest["assets"],
              Json::array({{{"name", asset.filename().string()}, {"file", "files/asset.glb"}}}));

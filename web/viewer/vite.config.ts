@@ -1,12 +1,22 @@
 import { fileURLToPath } from "node:url";
-import { defineConfig } from "vite";
+import { defineConfig, type Plugin } from "vite";
+
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+/** From a folder, styles are what a browser loads of the page: with `crossorigin` it does not. */
+const plainStyles: Plugin = {
+  name: "plain-styles",
+  transformIndexHtml: {
+    order: "post",
+    handler: (html) => html.replace(/(<link rel="stylesheet") crossorigin/, "$1"),
+  },
+};
 
 export default defineConfig({
   base: "./", // so that the page can lie anywhere on a server
+  plugins: [plainStyles],
   resolve: {
-    alias: {
-      "three-lambent": fileURLToPath(new URL("../three-lambent/src/index.ts", import.meta.url)),
-    },
+    alias: { "three-lambent": here("../three-lambent/src/index.ts") },
     dedupe: ["three"],
   },
   build: {
@@ -15,5 +25,20 @@ export default defineConfig({
     assetsDir: "code", // assets/ holds what is looked at
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1000,
+    rollupOptions: {
+      // <lambent-viewer> is one file with all that it takes, which the page uses as anybody can.
+      input: {
+        index: here("index.html"),
+        "lambent-viewer": here("src/element/lambent_viewer.ts"),
+      },
+      preserveEntrySignatures: "allow-extension",
+      output: {
+        entryFileNames: ({ name }) =>
+          name === "lambent-viewer" ? "[name].js" : "code/[name]-[hash].js",
+        // Skies, and the air under them, beside the element that looks for them there.
+        assetFileNames: ({ names }) =>
+          names[0]?.endsWith(".bin") ? "[name][extname]" : "code/[name]-[hash][extname]",
+      },
+    },
   },
 });

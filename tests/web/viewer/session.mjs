@@ -1,11 +1,21 @@
 // The tool's server and a browser that shows its page.
 import { spawn } from "node:child_process";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { join } from "node:path";
+import { dirname, join, resolve } from "node:path";
 
 export const tool = process.env.LAMBENT_TOOL ?? "lambent";
 /** Where node finds playwright-core: a folder with node_modules. */
 const modules = process.env.LAMBENT_WEB_MODULES ?? process.cwd();
+
+/** The page's own folder, built, with its node_modules. */
+export const viewerModules = process.env.LAMBENT_VIEWER_MODULES ?? process.cwd();
+/** Text of axe-core, to be evaluated in a page. */
+export const axe = () =>
+  readFileSync(
+    createRequire(join(viewerModules, "package.json")).resolve("axe-core/axe.min.js"), "utf8");
+/** Where the tool finds its page. */
+export const pageFolder = resolve(dirname(tool), "../share/lambent/viewer");
 
 export const kChromium = process.env.LAMBENT_CHROMIUM ?? "chromium";
 export const kSize = 200;
@@ -92,4 +102,24 @@ export async function openPage(browser, url, options = {}) {
   await page.waitForFunction(() => window.lambent !== undefined);
   await page.evaluate(() => window.lambent.ready);
   return { page, context, complaints };
+}
+
+export const settled = (page) => page.evaluate(() => window.lambent.viewer.settled());
+export const view = (page) => page.evaluate(() => window.lambent.view());
+/** The picture alone, whatever lies over it, once it is still: a PNG. */
+export const picture = async (page) =>
+  Buffer.from(await page.evaluate(async () => {
+    const bytes = new Uint8Array(await (await window.lambent.viewer.picture()).arrayBuffer());
+    return bytes.reduce((text, byte) => text + String.fromCharCode(byte), "");
+  }), "latin1");
+
+/** As when files are let go over the page. */
+export async function drop(page, ...files) {
+  await page.evaluate((all) => {
+    const transfer = new DataTransfer();
+    for (const { name, base64 } of all)
+      transfer.items.add(
+        new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
+    window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true }));
+  }, files.map(({ name, bytes }) => ({ name, base64: Buffer.from(bytes).toString("base64") })));
 }

@@ -96,7 +96,7 @@ describe("a sky in the page", () => {
     assert.ok(await page.evaluate((json) => window.lambent.showView(json), state));
     const shown = async (on, part) => {
       await page.evaluate(async ([air, how]) => {
-        await window.lambent.viewer.showAir(air, how);
+        await window.lambent.viewer.sky.showAir(air, how);
         await window.lambent.viewer.settled();
       }, [on, part]);
       return decodePng(await page.screenshot());
@@ -161,7 +161,7 @@ describe("a sky in the page", () => {
     await follows("sky:date=2026-06-21,time=10:00,utc-offset=1,lat=46.2,lon=6.14");
     const noon = (await page.evaluate(() => window.lambent.view())).exposure;
     await move("Time", 1255);
-    await move("Turbidity", 4);
+    await move("Haze", 4);
     await control("Place").selectOption("Tokyo");
     await control("Model").selectOption("Preetham");
     await control("Date").fill("2026-09-01");
@@ -195,7 +195,7 @@ describe("a sky in the page", () => {
       const { viewer } = window.lambent;
       const sun = { date: "2026-06-21", utcOffset: 1, latitude: 46.2, longitude: 6.14 };
       const show = (minutes) =>
-        viewer.showSky({ sun: { ...sun, minutes }, model: "fast", turbidity: 3 });
+        viewer.sky.show({ sun: { ...sun, minutes }, model: "fast", turbidity: 3 });
       await show(600);
       const began = performance.now();
       for (let i = 0; i < 20; ++i) await show(600 + 5 * i);

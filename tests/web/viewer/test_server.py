@@ -18,7 +18,48 @@ SIZE = 3_000_000  # of data.bin: more than what sockets hold
 PROMPT = 10  # seconds, on a busy machine; half of what 32 slow clients could take of 8 threads
 
 
+PAUSE = 22  # seconds: a page that compiles its shaders hears nothing for as long
+started = None
+
+
+def setUpModule():
+    """The pause goes by while the other tests run."""
+    global started
+    started = PausedClient()
+
+
+def tearDownModule():
+    started.end()
+
+
+class PausedClient:
+    """Has asked for data.bin and taken its first bytes in."""
+
+    def __init__(self):
+        self.began = time.monotonic()
+        self.case = Server()
+        self.case.large = True
+        self.case.setUp()
+        self.socket = self.case.connect()
+        self.socket.sendall(
+            f"GET /large.bin HTTP/1.1\r\nHost: 127.0.0.1:{self.case.port}\r\n"
+            "Connection: close\r\n\r\n".encode())
+        self.heard = self.socket.recv(1000)
+
+    def rest(self):
+        time.sleep(max(0, self.began + PAUSE - time.monotonic()))
+        parts = [self.heard]
+        while part := self.socket.recv(1 << 20):
+            parts.append(part)
+        return b"".join(parts)
+
+    def end(self):
+        self.case.doCleanups()
+
+
 class Server(unittest.TestCase):
+    large = False  # with a file that is more than any socket holds
+
     def setUp(self):
         self.dir = Path(tempfile.mkdtemp(prefix="lambent-server."))
         self.addCleanup(shutil.rmtree, self.dir, ignore_errors=True)
@@ -33,6 +74,8 @@ class Server(unittest.TestCase):
         (page / "empty.bin").write_bytes(b"")
         self.data = bytes((i * i >> 3) & 255 for i in range(SIZE))
         (page / "data.bin").write_bytes(self.data)
+        if self.large:
+            (page / "large.bin").write_bytes(10 * self.data)
 
         self.server = subprocess.Popen(
             [self.dir / "bin/lambent", "view", "--web", "--port", "0", "--no-browser", "--quiet"],
@@ -139,6 +182,10 @@ class Server(unittest.TestCase):
                 f"GET /data.bin HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n\r\n".encode())
         self.assert_answers(4)
         self.assert_ends()
+
+    def test_who_pauses_hears_the_rest(self):
+        answer = started.rest()
+        self.assertEqual(len(answer.split(b"\r\n\r\n", 1)[1]), 10 * SIZE)
 
     def test_one_connection_serves_many_requests(self):
         client = self.connect()

@@ -34,12 +34,13 @@ export class DiscControls {
 
   constructor(private readonly actions: DiscActions) {
     const number = (
-      label: string,
+      [label, title]: [string, string],
       key: "azimuth" | "elevation" | "diameter",
       [min, max]: [number, number],
     ) => {
       const control = slider({
         label,
+        title,
         min,
         max,
         step: 0.5,
@@ -51,7 +52,8 @@ export class DiscControls {
     };
     // Radiance in stops: a lamp is many times as bright as a sky.
     const strength = slider({
-      label: "Radiance",
+      label: "Brightness",
+      title: "Radiance, W m⁻² sr⁻¹",
       min: -4,
       max: 12,
       step: 0.1,
@@ -72,9 +74,9 @@ export class DiscControls {
       }));
     this.set.push((disc) => (color.value = toHex(split(disc.radiance).color)));
     this.fields.append(
-      number("Azimuth", "azimuth", [-180, 180]),
-      number("Elevation", "elevation", [-90, 90]),
-      number("Diameter", "diameter", [0.5, 120]),
+      number(["Direction", "Azimuth, from +x towards +z"], "azimuth", [-180, 180]),
+      number(["Height", "Elevation above the horizon"], "elevation", [-90, 90]),
+      number(["Size", "Angular diameter"], "diameter", [0.5, 120]),
       strength.element,
       h("div", { class: "toggle" }, h("label", { for: "disc-color" }, "Colour"), color),
       h("div", { class: "row" },

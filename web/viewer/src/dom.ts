@@ -30,6 +30,8 @@ const freshId = (): string => `control-${++ids}`;
 
 export interface SliderOptions {
   label: string;
+  /** What it is called in papers, and what it does. */
+  title?: string;
   min: number;
   max: number;
   step: number;
@@ -59,7 +61,8 @@ export function slider(options: SliderOptions): Control<number> {
     options.change(Number(input.value));
   });
   return {
-    element: h("div", { class: "slider" }, h("label", { for: id }, options.label), output, input),
+    element: h("div", { class: "slider", title: options.title ?? "" },
+      h("label", { for: id }, options.label), output, input),
     set(value) {
       if (document.activeElement !== input || Number(input.value) !== value)
         input.value = String(value);
@@ -84,6 +87,7 @@ export function segments<T extends string>(
   label: string,
   choices: readonly Choice<T>[],
   change: (value: T) => void,
+  title = "",
 ): Segments<T> {
   const name = freshId();
   const inputs = new Map<T, { input: HTMLInputElement; label: HTMLLabelElement }>();
@@ -97,7 +101,7 @@ export function segments<T extends string>(
     row.append(input, text);
   }
   return {
-    element: h("fieldset", { class: "choice" }, h("legend", {}, label), row),
+    element: h("fieldset", { class: "choice" }, h("legend", { title }, label), row),
     set(value) {
       const found = inputs.get(value);
       if (found) found.input.checked = true;
@@ -112,9 +116,12 @@ export function segments<T extends string>(
   };
 }
 
-export function toggle(label: string, title: string, change: (on: boolean) => void): Control<boolean> & {
+export interface Toggle extends Control<boolean> {
+  /** A reason disables it and says why; null enables it. */
   forbid(reason: string | null): void;
-} {
+}
+
+export function toggle(label: string, title: string, change: (on: boolean) => void): Toggle {
   const id = freshId();
   const input = h("input", { type: "checkbox", role: "switch", id });
   input.addEventListener("change", () => change(input.checked));

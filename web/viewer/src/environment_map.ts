@@ -1,9 +1,11 @@
 // Files of light → pixels in latitude and longitude.
 import { FloatType, RedFormat } from "three";
+import { EXRLoader } from "three/addons/loaders/EXRLoader.js";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
 import type { EquirectangularImage } from "three-lambent";
 import { srgbDecode } from "three-lambent";
 import { type Chromaticities, toRec709 } from "./primaries";
+import { messageOf } from "./messages";
 
 /** Linear radiance; four floats a pixel, the zenith's row first. */
 export interface LightMap {
@@ -20,10 +22,10 @@ export async function decodeMap(bytes: ArrayBuffer, name: string): Promise<Light
   let map: LightMap;
   try {
     if (extension === ".hdr") map = decodeHdr(bytes);
-    else if (extension === ".exr") map = await decodeExr(bytes);
+    else if (extension === ".exr") map = decodeExr(bytes);
     else map = await decodePicture(bytes);
   } catch (error) {
-    const reason = error instanceof Error ? error.message : String(error);
+    const reason = messageOf(error);
     throw new Error(`${name}: damaged, or not of the kind that its name says (${reason})`);
   }
   if (map.width !== 2 * map.height)
@@ -57,8 +59,7 @@ function decodeHdr(bytes: ArrayBuffer): LightMap {
   return { width, height, data };
 }
 
-async function decodeExr(bytes: ArrayBuffer): Promise<LightMap> {
-  const { EXRLoader } = await import("three/addons/loaders/EXRLoader.js");
+function decodeExr(bytes: ArrayBuffer): LightMap {
   const parsed = new EXRLoader().setDataType(FloatType).parse(bytes) as {
     width: number;
     height: number;

@@ -20,12 +20,21 @@ import { skies } from "./skies";
 import { requestOf } from "./sky_source";
 import { parseSource } from "./source";
 import type { Triple } from "./view_state";
+import { messageOf } from "./messages";
 
 /** Angular diameter that stands for a light without extent, degrees: nothing of 10 bands sees it. */
 const kPointLike = 0.02;
 
 /** Reads the bytes behind a name; where they come from is the caller's matter. */
 export type ReadFile = () => Promise<ArrayBuffer>;
+
+/** What the names in a SOURCE stand for. */
+export interface Files {
+  /** Those that are known beforehand, in which a '+' divides nothing. */
+  names(): Iterable<string>;
+  /** undefined: there is no such file. */
+  read(name: string): ReadFile | undefined;
+}
 
 export interface LoadedEnvironment {
   source: string;
@@ -40,13 +49,27 @@ export interface LoadedEnvironment {
   dispose(): void;
 }
 
+/** A file of light that nobody has given. */
+export class MissingLight extends Error {
+  /** `why`: what the server said of it; nothing where it was not asked. */
+  constructor(
+    readonly file: string,
+    why = "",
+  ) {
+    super(
+      `${file}: the page has no such light${why && ` (${why})`}. Drop the file onto it, or name ` +
+        `it to lambent view --web ASSET ${file}`,
+    );
+  }
+}
+
 /**
  * Loads a SOURCE. `files` says how to read each name in it. `floatTextures`: whether the GPU
  * filters 32-bit textures; where it does not, what is looked at has 16 bits.
  */
 export async function loadEnvironment(
   source: string,
-  files: ReadonlyMap<string, ReadFile>,
+  files: Files,
   floatTextures: boolean,
 ): Promise<LoadedEnvironment> {
   const maps: LightMap[] = [];
@@ -55,7 +78,7 @@ export async function loadEnvironment(
   const hidden: Disc[] = [];
   const uniform: Triple = [0, 0, 0];
   let sky: Sky | null = null;
-  for (const term of parseSource(source, files.keys())) {
+  for (const term of parseSource(source, files.names())) {
     if (term.kind === "uniform") {
       term.radiance.forEach((each, c) => (uniform[c]! += each));
     } else if (term.kind === "disc") {
@@ -83,15 +106,11 @@ export async function loadEnvironment(
       sky = (await skies()).at(requestOf(term.settings));
       seen.push(...sky.discs);
     } else {
-      const read = files.get(term.name);
-      if (read === undefined)
-        throw new Error(
-          `${term.name}: the page has no such light. Drop the file onto it, or name it to ` +
-            `lambent view --web ASSET ${term.name}`,
-        );
+      const read = files.read(term.name);
+      if (read === undefined) throw new MissingLight(term.name);
       const bytes = await read();
-      if (/\.json$/i.test(term.name)) harmonics.push(lightFromJson(bytes, term.name));
-      else maps.push(await decodeMap(bytes, term.name));
+      if (/\.json$/i.test(pathOf(term.name))) harmonics.push(lightFromJson(bytes, term.name));
+      else maps.push(await decodeMap(bytes, pathOf(term.name)));
     }
   }
 
@@ -125,11 +144,14 @@ export async function loadEnvironment(
   };
 }
 
+/** A name that is an address can end in a query. */
+const pathOf = (name: string): string => name.replace(/[?#].*$/, "");
+
 function lightFromJson(bytes: ArrayBuffer, name: string): LambentLight {
   try {
     return LambentLight.fromJson(JSON.parse(new TextDecoder().decode(bytes)));
   } catch (error) {
-    const reason = error instanceof Error ? error.message : String(error);
+    const reason = messageOf(error);
     throw new Error(`${name}: not a light as 'lambent light' writes it (${reason})`);
   }
 }

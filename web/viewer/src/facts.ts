@@ -1,7 +1,10 @@
 // What the controls say about the asset that is shown: figures, and why a choice is not there.
 import type { TransferChoice } from "three-lambent";
+import { bakeLine } from "./bake_line";
+import type { History } from "./history";
+import type { LoadedAsset } from "./load_asset";
 import type { PanelFacts } from "./panel";
-import type { Viewer } from "./viewer";
+import { stillness, type Viewer } from "./viewer";
 
 const count = (value: number): string => value.toLocaleString("en");
 
@@ -9,48 +12,53 @@ function bytes(value: number): string {
   return value < 1e6 ? `${(value / 1e3).toFixed(0)} kB` : `${(value / 1e6).toFixed(1)} MB`;
 }
 
-export function facts(viewer: Viewer, environment: number): PanelFacts {
-  const loaded = viewer.current.loaded;
-  const asset = loaded?.asset;
-  const kinds = asset?.kinds;
+function figures({ asset, plain, bytes: size }: LoadedAsset): string {
+  if (plain !== null) return `${count(plain.vertices)} vertices, ${bytes(size)}, not baked`;
+  return `${count(asset.info.vertices)} vertices, ${count(asset.info.receivers)} receivers of ` +
+    `${asset.info.bands} bands, ${bytes(size)}`;
+}
+
+export function facts(viewer: Viewer, environment: number, past: History): PanelFacts {
+  const { loaded } = viewer.current;
+  const asset = loaded?.asset ?? null;
+  const notBaked = loaded !== null && asset === null ? "Only a baked asset can be relit." : null;
   const noTransfer: Record<TransferChoice, string | null> = {
     best: null,
-    unshadowed: null,
-    shadowed: null,
-    interreflected: null,
+    unshadowed: notBaked,
+    shadowed: notBaked,
+    interreflected: notBaked,
   };
-  if (asset !== undefined) {
+  if (asset !== null) {
     if (!asset.offers("shadowed"))
       noTransfer.shadowed =
-        "Without shadows alone: bake with --keep-shadowed to switch bounces off.";
+        "No shadows without bounces: bake with --keep-shadowed to switch bounces off.";
     if (!asset.offers("interreflected"))
-      noTransfer.interreflected = "Without bounces: it was baked shadowed or unshadowed.";
+      noTransfer.interreflected = "No bounces: it was baked shadowed or unshadowed.";
   }
+  const sun = "The Sun's shadow stays soft: bake with --keep-shadowed to make it sharp.";
   return {
-    assets: viewer.assets.map((each) => each.name),
+    assets: viewer.library.assets.map((each) => each.name),
     asset: viewer.asset,
-    environments: viewer.environments.map((each) => each.name),
+    environments: viewer.library.environments.map((each) => each.name),
     environment,
     disc: viewer.disc,
     playing: viewer.playing,
+    still: stillness().matches ? "This browser asks for reduced motion." : null,
     unlit: viewer.unlit,
+    undoes: past.undoes,
+    redoes: past.redoes,
     sky: {
-      problem: viewer.skyProblem,
-      follows: viewer.follows,
+      problem: viewer.sky.problem,
+      follows: viewer.sky.follows,
       air: viewer.view.air,
       noShafts: viewer.view.sunShadow === "sharp" ? null : "They take a sharp shadow of the Sun.",
     },
-    info:
-      asset === undefined
-        ? "Drop a .glb that lambent bake wrote."
-        : `${count(asset.info.vertices)} vertices, ${count(asset.info.receivers)} receivers of ` +
-          `${asset.info.bands} bands, ${bytes(loaded!.bytes)}`,
+    info: loaded === null ? "Drop a .glb here." : figures(loaded),
+    bake: loaded?.plain ? bakeLine(loaded.name) : null,
     noTransfer,
-    noSharpSun:
-      asset === undefined || asset.offersSharpSun
-        ? null
-        : "The Sun's shadow stays soft: bake with --keep-shadowed to make it sharp.",
-    noPatch: kinds?.has("bi-scale") ? null : "No meso-structure on this asset.",
-    noLobe: kinds?.has("glossy") ? null : "No glossy surface on this asset.",
+    noSharpSun: notBaked ?? (asset === null || asset.offersSharpSun ? null : sun),
+    noPatch: notBaked ?? (asset?.kinds.has("bi-scale") ? null : "No relief on this asset."),
+    noLobe: notBaked ?? (asset?.kinds.has("glossy") ? null : "No glossy surface on this asset."),
+    noLight: notBaked,
   };
 }

@@ -6,7 +6,9 @@ const kTop = 50; // milliseconds at the upper edge
 const kPause = 250; // a longer gap is not a slow frame: nothing moved
 
 export class FrameGraph {
-  private readonly canvas = h("canvas", { class: "graph", width: 480, height: 96, role: "img" });
+  private readonly canvas = h("canvas", {
+    class: "graph", width: 480, height: 96, role: "img", "aria-label": "Frame times: nothing moves",
+  });
   private readonly text = h("p", { class: "figures" }, "Nothing moves");
   readonly element = h("div", { class: "frames" }, this.canvas, this.text);
   private frames: { interval: number; work: number }[] = [];

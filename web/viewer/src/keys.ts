@@ -1,34 +1,25 @@
 // Keys → what they do; the list in help.ts says the same to people.
+import { pressOnPicture } from "./picture_keys";
 import type { Viewer } from "./viewer";
 import { kTransfers, type ViewState } from "./view_state";
-
-const kStep = 0.07; // radians
-const kPanStep = 30; // pixels
 
 export interface KeyActions {
   openFiles(): void;
   savePicture(): void;
   saveView(): void;
+  undo(): void;
+  redo(): void;
   hide(): void;
+  fullScreen(): void;
   help(): void;
 }
 
 /** Listens to the whole page, except where a control wants the key for itself. */
 export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
-  const arrows: Record<string, [number, number]> = {
-    ArrowLeft: [-1, 0],
-    ArrowRight: [1, 0],
-    ArrowUp: [0, -1],
-    ArrowDown: [0, 1],
-  };
+  const { assets, environments } = viewer.library;
   const nextEnvironment = (by: number) =>
-    next(viewer.environments.length, environmentOf(viewer), by, (i) => viewer.openEnvironment(i));
+    next(environments.length, environmentOf(viewer), by, (i) => viewer.openEnvironment(i));
   const simple: Record<string, () => void> = {
-    "+": () => viewer.zoom(1.1),
-    "=": () => viewer.zoom(1.1),
-    "-": () => viewer.zoom(1 / 1.1),
-    f: () => viewer.frame(),
-    r: () => viewer.reset(),
     " ": () => viewer.play(!viewer.playing),
     a: () => viewer.play(!viewer.playing),
     u: () => viewer.setUnlit(!viewer.unlit),
@@ -36,7 +27,7 @@ export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
     v: () => viewer.change((view) => (view.viewDependent = !view.viewDependent)),
     e: () => nextEnvironment(1),
     E: () => nextEnvironment(-1),
-    n: () => next(viewer.assets.length, viewer.asset, 1, (i) => viewer.openAsset(i)),
+    n: () => next(assets.length, viewer.asset, 1, (i) => viewer.openAsset(i)),
     d: () => viewer.addDisc(),
     Delete: () => viewer.removeDisc(viewer.disc),
     w: () => viewer.change((view) => (view.window = windowAfter(view.window))),
@@ -47,46 +38,56 @@ export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
     o: () => actions.openFiles(),
     s: () => actions.savePicture(),
     h: () => actions.hide(),
+    F: () => actions.fullScreen(),
+    Escape: () => viewer.messages.closeOne(),
     "?": () => actions.help(),
   };
+  const withControl: Record<string, () => void> = {
+    s: () => actions.saveView(),
+    z: () => actions.undo(),
+    Z: () => actions.redo(),
+    y: () => actions.redo(),
+  };
   window.addEventListener("keydown", (event) => {
+    if (event.defaultPrevented) return; // the picture has taken it
     if (document.querySelector("dialog[open]") !== null && event.key !== "?") return;
-    const arrow = arrows[event.key];
     if (wantsKey(event)) return;
-    if (arrow !== undefined) {
-      const [x, y] = arrow;
-      if (event.altKey) viewer.pan(-kPanStep * x, -kPanStep * y);
-      else if (event.ctrlKey || event.metaKey) viewer.turnObject(kStep * x, kStep * y);
-      else if (event.shiftKey) viewer.turnLight(kStep * x, kStep * y);
-      else viewer.drag(viewer.grip, kStep * x, kStep * y);
-      return event.preventDefault();
-    }
-    if ((event.ctrlKey || event.metaKey) && event.key === "s") {
-      event.preventDefault();
-      return actions.saveView();
-    }
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const transfer = /^[0-3]$/.test(event.key) ? kTransfers[Number(event.key)] : undefined;
-    if (transfer !== undefined) return viewer.change((view) => (view.transfer = transfer));
-    const action = simple[event.key] ?? simple[event.key.toLowerCase()];
-    if (action === undefined) return;
-    event.preventDefault();
-    action();
+    const act = () => {
+      if (pressOnPicture(viewer, event)) return true;
+      if (event.ctrlKey || event.metaKey) {
+        const key = event.shiftKey ? event.key.toUpperCase() : event.key.toLowerCase();
+        const action = withControl[key];
+        action?.();
+        return action !== undefined;
+      }
+      if (event.altKey) return false;
+      const transfer = /^[0-3]$/.test(event.key) ? kTransfers[Number(event.key)] : undefined;
+      if (transfer !== undefined) viewer.change((view) => (view.transfer = transfer));
+      const key = event.key.length === 1 && !event.shiftKey ? event.key.toLowerCase() : event.key;
+      const action = simple[key] ?? simple[key.toLowerCase()];
+      action?.();
+      return transfer !== undefined || action !== undefined;
+    };
+    if (act()) event.preventDefault();
   });
 }
 
 /** Whether the focused control uses the key itself. */
 function wantsKey(event: KeyboardEvent): boolean {
-  const focused = event.target as HTMLElement;
+  const focused = event.composedPath()[0];
   const isArrow = event.key.startsWith("Arrow");
   if (focused instanceof HTMLSelectElement) return true;
-  if (focused instanceof HTMLInputElement)
-    return focused.type === "color" || isArrow || event.key === " ";
-  return focused instanceof HTMLButtonElement && (event.key === " " || event.key === "Enter");
+  if (focused instanceof HTMLInputElement) {
+    if (event.ctrlKey && event.key.toLowerCase() === "z") return false;
+    return focused.type === "color" || focused.type === "date" || isArrow || event.key === " ";
+  }
+  if (!(focused instanceof HTMLButtonElement)) return false;
+  const tab = focused.getAttribute("role") === "tab";
+  return event.key === " " || event.key === "Enter" || (tab && isArrow);
 }
 
 export function environmentOf(viewer: Viewer): number {
-  return viewer.environments.findIndex(
+  return viewer.library.environments.findIndex(
     (each) => each.source === viewer.view.environment.source,
   );
 }

@@ -1,40 +1,82 @@
-// A .glb → an asset that can be relit, or an Error that says what is wrong and what to do.
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+// A .glb → something to show: an asset that can be relit, or a plain scene under three's own light.
+// Or an Error that says what is wrong and what to do.
+import { GLTFLoader, type GLTF } from "three/addons/loaders/GLTFLoader.js";
 import type { Camera, Material, Mesh, Object3D, Texture } from "three";
 import { LambentAsset, LambentLoaderPlugin } from "three-lambent";
+import { bakeLine } from "./bake_line";
+import { PlainScene } from "./plain_scene";
+import { messageOf } from "./messages";
 
-export interface LoadedAsset {
+interface Loaded {
   name: string;
-  asset: LambentAsset;
+  root: Object3D;
   /** Cameras of the file, as they stand in its scene. */
   cameras: Camera[];
   bytes: number;
 }
+export interface RelitAsset extends Loaded {
+  asset: LambentAsset;
+  plain: null;
+}
+/** What has no transfer. */
+export interface PlainAsset extends Loaded {
+  asset: null;
+  plain: PlainScene;
+  /** It was baked once, and what wrote it since let go of the transfer. */
+  stripped: boolean;
+}
+export type LoadedAsset = RelitAsset | PlainAsset;
 
 const kGlbMagic = 0x46546c67;
+/** What GLTFLoader says of what it cannot unpack, and what that is. The tool reads both. */
+const kPacked: readonly [string, string][] = [
+  ["DRACOLoader", "Draco"],
+  ["MeshoptDecoder", "meshopt"],
+];
 
-/** Throws an Error with a message for the person who dropped the file. */
+/** Throws an Error with a message for the person who opened the file. */
 export async function loadAsset(bytes: ArrayBuffer, name: string): Promise<LoadedAsset> {
   if (bytes.byteLength < 20 || new DataView(bytes).getUint32(0, true) !== kGlbMagic)
     throw new Error(`${name}: not a binary glTF file (.glb)`);
   const loader = new GLTFLoader();
   loader.register((parser) => new LambentLoaderPlugin(parser));
-  let gltf;
+  let gltf: GLTF;
   try {
     gltf = await loader.parseAsync(bytes, "");
   } catch (error) {
-    const reason = error instanceof Error ? error.message : String(error);
-    throw new Error(`${name}: cannot be read: ${reason}`);
-  }
-  const asset = LambentAsset.of(gltf.scene);
-  if (asset === undefined) {
-    for (const scene of gltf.scenes) freeAll(scene);
+    const reason = messageOf(error);
+    const packed = kPacked.find(([sign]) => reason.includes(sign));
     throw new Error(
-      `${name}: it has not been baked, so there is nothing to relight. ` +
-        `Bake it first: lambent bake ${name} -o baked.glb`,
+      packed === undefined
+        ? `${name}: cannot be read: ${reason}`
+        : `${name}: it is compressed (${packed[1]}), which is not read here before it is baked: ` +
+            bakeLine(name),
     );
   }
-  return { name, asset, cameras: gltf.cameras, bytes: bytes.byteLength };
+  const { scene: root, cameras } = gltf;
+  const common = { name, root, cameras, bytes: bytes.byteLength };
+  const asset = LambentAsset.of(root);
+  if (asset !== undefined) return { ...common, asset, plain: null };
+  for (const scene of gltf.scenes) if (scene !== root) freeAll(scene);
+  return {
+    ...common,
+    asset: null,
+    plain: new PlainScene(root, () => freeAll(root)),
+    stripped: wasBaked(gltf),
+  };
+}
+
+/** What was loaded and is not shown after all. */
+export function freeAsset({ asset, plain }: LoadedAsset): void {
+  asset?.dispose();
+  plain?.free();
+}
+
+/** Marks of a bake that are left where the extension is gone. */
+function wasBaked({ asset, parser }: GLTF): boolean {
+  const { extras } = parser.json as { extras?: Record<string, unknown> };
+  const own = asset.extras as Record<string, unknown> | undefined;
+  return /\bLambent\b/.test(asset.generator ?? "") || [own, extras].some((each) => each?.lambent);
 }
 
 /** Geometries, materials and textures of an ordinary glTF scene. */

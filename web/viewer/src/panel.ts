@@ -13,11 +13,15 @@ export interface PanelActions extends SkyActions {
   openAsset(index: number): void;
   openEnvironment(index: number): void;
   openFiles(): void;
+  copyBakeLine(): void;
+  startAfresh(): void;
   addDisc(): void;
   removeDisc(index: number): void;
   chooseDisc(index: number): void;
   frame(): void;
   reset(): void;
+  undo(): void;
+  redo(): void;
   play(on: boolean): void;
   setUnlit(on: boolean): void;
   saveView(): void;
@@ -34,22 +38,32 @@ export interface PanelFacts {
   environment: number;
   disc: number;
   playing: boolean;
+  /** Why nothing goes by itself; null if it may. */
+  still: string | null;
   unlit: boolean;
+  undoes: boolean;
+  redoes: boolean;
   sky: SkyFacts;
   info: string;
+  /** The line that bakes what is shown; null: it is baked. */
+  bake: string | null;
   /** Why a choice shows nothing of its own; null where it does. */
   noTransfer: Record<TransferChoice, string | null>;
   noSharpSun: string | null;
   noPatch: string | null;
   noLobe: string | null;
+  /** Why the choices of how light acts do nothing at all. */
+  noLight: string | null;
 }
 
-const kSections = ["Object", "Light", "Sky", "Transport", "Picture"] as const;
+const kSections = ["Object", "Light", "Sky", "Surface", "Picture"] as const;
 type Section = (typeof kSections)[number];
 const kMostLobe = 200;
 
 export class Panel {
   readonly element: HTMLElement;
+  /** Changes taken back and made again: beside the picture, in reach of a thumb. */
+  readonly past = h("div", { id: "past", role: "group", "aria-label": "Changes" });
   private environments = 0;
   private readonly updates: ((view: ViewState, facts: PanelFacts) => void)[] = [];
 
@@ -62,7 +76,7 @@ export class Panel {
       Object: this.objectSection(),
       Light: this.lightSection(sky),
       Sky: this.skySection(),
-      Transport: this.transportSection(),
+      Surface: this.surfaceSection(),
       Picture: this.pictureSection(graph),
     };
     const tabs = h("div", { class: "tabs", role: "tablist", "aria-label": "Controls" });
@@ -80,6 +94,13 @@ export class Panel {
       tab.id = `tab-${name}`;
       tab.setAttribute("role", "tab");
       tab.setAttribute("aria-controls", `section-${name}`);
+      tab.addEventListener("keydown", ({ key }) => {
+        const by = { ArrowRight: 1, ArrowLeft: -1 }[key];
+        if (by === undefined) return;
+        const at = (kSections.indexOf(name) + by + kSections.length) % kSections.length;
+        open(kSections[at]!);
+        tabs.querySelectorAll("button")[at]!.focus();
+      });
       sections[name].id = `section-${name}`;
       tabs.append(tab);
       body.append(sections[name]);
@@ -89,9 +110,21 @@ export class Panel {
       window.dispatchEvent(new Event("resize"));
     }, "fold");
     fold.setAttribute("aria-label", "Fold or unfold the controls");
+    const round = (text: string, name: string, key: string, press: () => void) => {
+      const made = button(text, `${name} (${key})`, press, "round");
+      made.setAttribute("aria-label", name);
+      return made;
+    };
     const header = h("header", {},
-      h("h1", {}, "Lambent"),
-      button("?", "Help (?)", () => actions.help(), "round"));
+      h("p", { class: "title" }, "Lambent"),
+      round("?", "Help", "?", () => actions.help()));
+    const undo = round("↶", "Undo", "Ctrl + Z", () => actions.undo());
+    const redo = round("↷", "Redo", "Ctrl + Shift + Z", () => actions.redo());
+    this.past.append(undo, redo);
+    this.updates.push((_, facts) => {
+      undo.disabled = !facts.undoes;
+      redo.disabled = !facts.redoes;
+    });
     this.element = h("aside", { id: "panel", "aria-label": "Controls" }, header, fold, tabs, body);
     open("Light");
   }
@@ -108,16 +141,24 @@ export class Panel {
     const { actions } = this;
     const assets = select("Asset", (index) => actions.openAsset(index));
     const info = h("p", { class: "figures" });
+    const line = h("code", {});
+    const bake = h("div", { class: "bake" },
+      h("p", { class: "reason" }, "It is not baked. This relights it:"), line,
+      button("Copy the line", "Onto the clipboard", () => actions.copyBakeLine()));
     this.updates.push((_, facts) => {
       assets.fill(facts.assets, facts.asset);
       info.textContent = facts.info;
+      bake.hidden = facts.bake === null;
+      line.textContent = facts.bake;
     });
-    return this.section("Object", assets.element, info,
+    return this.section("Object", assets.element, info, bake,
       h("div", { class: "row" },
         button("Open files…", "Open .glb, .hdr, .exr, .png or a saved view (O)", () =>
           actions.openFiles()),
         button("Frame", "Frame the object (F)", () => actions.frame()),
-        button("Reset", "Turn everything back (R)", () => actions.reset())));
+        button("Reset", "Turn everything back (R)", () => actions.reset()),
+        button("Start afresh", "The page's own scene, as it was first shown", () =>
+          actions.startAfresh())));
   }
 
   private lightSection(sky: SkyMap): HTMLElement {
@@ -142,22 +183,25 @@ export class Panel {
       actions.play(on));
     const discs = new DiscControls(actions);
     const window = segments<"auto" | "none" | "minimal" | "hann" | "lanczos">(
-      "Windowing",
+      "Smoothing",
       [
-        { value: "auto", label: "Gloss", title: "Glossy surfaces alone, by the least that leaves no rings" },
+        { value: "auto", label: "Gloss",
+          title: "Glossy surfaces alone, by the least that leaves no rings" },
         { value: "none", label: "None", title: "The harmonics as they are" },
         { value: "minimal", label: "Least", title: "The least that keeps radiance above zero" },
-        { value: "hann", label: "Hann" },
-        { value: "lanczos", label: "Lanczos" },
+        { value: "hann", label: "Hann", title: "Hann's window: soft" },
+        { value: "lanczos", label: "Lanczos", title: "Lanczos's window: less soft" },
       ],
       (kind) =>
         actions.change((view) => {
           view.window = kind === "hann" || kind === "lanczos" ? `${kind}:${width}` : kind;
         }),
+      "Windowing of the harmonics against ringing: takes dark rings around bright light (W)",
     );
     let width = 5;
     const widthSlider = slider({
-      label: "Width of the window",
+      label: "Detail that stays",
+      title: "Width of the window, in bands of spherical harmonics",
       min: 1,
       max: 10,
       step: 0.25,
@@ -180,12 +224,14 @@ export class Panel {
       const [x, y, z, w] = view.environment.rotation;
       turn.set(Math.round((Math.atan2(2 * (w * y + x * z), 1 - 2 * (x * x + y * y)) * 180) / Math.PI));
       play.set(facts.playing);
+      play.forbid(facts.still);
       discs.show(view, facts.disc);
-      const [kind, given] = view.window.split(":") as ["none" | "minimal" | "hann" | "lanczos", string?];
+      const [kind, given] = view.window.split(":") as
+        ["auto" | "none" | "minimal" | "hann" | "lanczos", string?];
       if (given !== undefined) width = Number(given);
       window.set(kind);
       widthSlider.set(width);
-      widthSlider.element.hidden = kind === "none" || kind === "minimal";
+      widthSlider.element.hidden = kind !== "hann" && kind !== "lanczos";
     });
     return this.section("Light", environments.element, sky.element, turn.element, play.element,
       discs.element, window.element, widthSlider.element);
@@ -197,35 +243,40 @@ export class Panel {
     return this.section("Sky", controls.element);
   }
 
-  private transportSection(): HTMLElement {
+  private surfaceSection(): HTMLElement {
     const { actions } = this;
     const transfer = segments<TransferChoice>(
       "What light does",
       [
-        { value: "best", label: "Best", title: "The best that the asset holds (0)" },
-        { value: "unshadowed", label: "Bare", title: "Unshadowed: the cosine alone (1)" },
-        { value: "shadowed", label: "Shadows", title: "Shadowed: surfaces hide light (2)" },
+        { value: "best", label: "Best", title: "The best transfer that the asset holds (0)" },
+        { value: "unshadowed", label: "Bare",
+          title: "Unshadowed transfer: no shadows, the cosine alone (1)" },
+        { value: "shadowed", label: "Shadows",
+          title: "Shadowed transfer: surfaces hide light (2)" },
         { value: "interreflected", label: "Bounces",
-          title: "Interreflected: surfaces also pass light on (3)" },
+          title: "Interreflected transfer: surfaces also pass light on (3)" },
       ],
       (choice) => actions.change((view) => (view.transfer = choice)),
+      "Which part of the precomputed radiance transfer is shown",
     );
     const reasons = h("p", { class: "reason" });
     const sun = toggle("Sharp shadow of the Sun",
       "A small disc of light shows through a map of its shadows, not as harmonics have it",
       (on) => actions.change((view) => (view.sunShadow = on ? "sharp" : "soft")));
-    const macro = toggle("Macro-scale shadows",
-      "What the shape as a whole does to the light on meso-structure (M)",
+    const macro = toggle("Shadows on the relief",
+      "Macro-scale transfer: what the whole shape does to the light on meso-structure (M)",
       (on) => actions.change((view) => (view.macro = on)));
-    const views = toggle("Dependence on the view",
-      "Off: meso-structure as seen from straight above (V)",
+    const views = toggle("Relief changes with the view",
+      "View dependence of the radiance transfer texture; off: as seen from straight above (V)",
       (on) => actions.change((view) => (view.viewDependent = on)));
-    const unlit = toggle("Base colour alone", "Without light (U)", (on) => actions.setUnlit(on));
-    const ownLobe = toggle("Lobe of my own", "Another exponent of glossy lobes", (on) =>
+    const unlit = toggle("Base colour alone", "Albedo, without light (U)", (on) =>
+      actions.setUnlit(on));
+    const ownLobe = toggle("Gloss of my own", "Another exponent of the glossy lobe", (on) =>
       actions.change((view) => (view.lobe = on ? 16 : null)));
     // Exponents as the ear hears loudness: equal steps are equal ratios.
     const lobe = slider({
-      label: "Exponent of the lobe",
+      label: "Gloss",
+      title: "Exponent of the Phong lobe: the higher, the sharper what is reflected",
       min: 0,
       max: Math.log2(kMostLobe),
       step: 0.05,
@@ -254,8 +305,9 @@ export class Panel {
       lobe.set(Math.log2(Math.max(view.lobe ?? 16, 1)));
       lobe.element.hidden = view.lobe === null;
       unlit.set(facts.unlit);
+      unlit.forbid(facts.noLight);
     });
-    return this.section("Transport", transfer.element, sun.element, macro.element, views.element,
+    return this.section("Surface", transfer.element, sun.element, macro.element, views.element,
       ownLobe.element, lobe.element, unlit.element, reasons);
   }
 
@@ -263,6 +315,7 @@ export class Panel {
     const { actions } = this;
     const exposure = slider({
       label: "Exposure",
+      title: "In stops: +1 EV is twice as bright ([ and ])",
       min: -10,
       max: 24, // of a sky with the Sun at −18°
       step: 0.1,
@@ -272,15 +325,17 @@ export class Panel {
     const tone = segments<"filmic" | "linear">(
       "Tone",
       [
-        { value: "filmic", label: "Filmic" },
-        { value: "linear", label: "Linear" },
+        { value: "filmic", label: "Filmic", title: "Highlights roll off as on film" },
+        { value: "linear", label: "Linear", title: "Cut off at white" },
       ],
       (curve) => actions.change((view) => (view.tone = curve)),
+      "Tone curve: how bright light is brought onto the screen (T)",
     );
     const background = toggle("Background", "The environment behind the object (B)", (on) =>
       actions.change((view) => (view.background = on)));
     const samples = slider({
       label: "Samples of a still picture",
+      title: "Per pixel, once nothing moves: edges and shadows of the Sun become smooth",
       min: 0,
       max: 8,
       step: 1,
@@ -299,7 +354,8 @@ export class Panel {
         button("Save picture", "As .png (S)", () => actions.savePicture()),
         button("Save view", "As .json, which lambent view and lambent render --view take (Ctrl + S)", () =>
           actions.saveView()),
-        button("Copy link", "To this page with this view", () => actions.copyLink())),
+        button("Copy link", "To this page with this asset and this view", () =>
+          actions.copyLink())),
       h("h3", {}, "Frame times"), graph.element);
   }
 }

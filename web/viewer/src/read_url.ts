@@ -1,15 +1,25 @@
-// Bytes from the server the page came from, with progress.
+// Bytes from an address, with progress.
 import type { ReadFile } from "./environments";
+import { nameOfAddress } from "./library";
 import type { LoadingBar } from "./messages";
 
+/** What a browser does not say of an answer that it did not get. */
+function whyNot(address: string): string {
+  const { origin, host } = new URL(address, document.baseURI);
+  return origin === location.origin
+    ? "the server does not answer. Is it still running?"
+    : `${host} does not answer, or may not be read from here (CORS, or this page's content ` +
+        "policy). Download the file, and open it";
+}
+
 export function progressiveRead(url: string, bar: LoadingBar): ReadFile {
-  const name = url.split("/").pop()!;
+  const name = nameOfAddress(url);
   return async () => {
     let response: Response;
     try {
       response = await fetch(url);
     } catch {
-      throw new Error(`${name}: the server does not answer. Is it still running?`);
+      throw new Error(`${name}: ${whyNot(url)}`);
     }
     if (!response.ok || response.body === null)
       throw new Error(`${name}: the server answers ${response.status}`);

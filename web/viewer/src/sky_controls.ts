@@ -148,7 +148,8 @@ export class SkyControls {
       `${Math.abs(value).toFixed(2)}° ${value < 0 ? negative : positive}`;
     const air = this.airControls();
     const turbidity = slider({
-      label: "Turbidity",
+      label: "Haze",
+      title: "Turbidity: 1 is air without haze",
       min: 1, max: 10, step: 0.1,
       format: (value) => value.toFixed(1),
       change: (value) => this.change({ turbidity: value }),
@@ -187,10 +188,12 @@ export class SkyControls {
 
   private airControls(): HTMLElement[] {
     const { actions } = this;
-    const on = toggle("Seen through the air", "What is far away pales (lambent render --air)", (on) =>
-      actions.showAir(on));
+    const on = toggle("Seen through the air",
+      "Aerial perspective: what is far away pales (lambent render --air)",
+      (on) => actions.showAir(on));
     const metres = slider({
       label: "Metres in one unit",
+      title: "How large the scene is",
       min: 0, max: 5, step: 0.1,
       format: (value) => Number((10 ** value).toPrecision(2)).toLocaleString("en"),
       change: (value) => actions.showAir(true, { metresPerUnit: Number((10 ** value).toPrecision(2)) }),

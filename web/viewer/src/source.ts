@@ -64,17 +64,26 @@ function termOf(text: string): Term {
  * divide, nor does one in an exponent (1e+3), nor the sign of a sky's number. Throws an Error that says what cannot be understood.
  */
 export function parseSource(text: string, files: Iterable<string>): Term[] {
+  const names = new Set(files);
+  return termsOf(text, names).map((term) =>
+    names.has(term) ? { kind: "file", name: term } : termOf(term));
+}
+/** The same as texts, which need not make sense. */
+export function termsOf(text: string, files: Iterable<string>): string[] {
   const names = [...files].sort((a, b) => b.length - a.length);
-  const terms: Term[] = [];
+  const terms: string[] = [];
   for (let at = 0; at <= text.length; ) {
     const rest = text.slice(at);
     const file = names.find((name) => rest === name || rest.startsWith(name + "+"));
     const end = file !== undefined ? file.length : endOfTerm(rest);
-    terms.push(file !== undefined ? { kind: "file", name: file } : termOf(rest.slice(0, end)));
+    terms.push(rest.slice(0, end));
     at += end + 1;
   }
   return terms;
 }
+
+/** Whether a term is the name of a file: it begins with no other word. */
+export const isFile = (term: string): boolean => !/^(uniform$|[a-z]+:)/.test(term);
 
 function endOfTerm(text: string): number {
   const sky = text.startsWith("sky:");

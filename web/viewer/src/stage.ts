@@ -6,7 +6,6 @@ import {
   OrthographicCamera,
   PerspectiveCamera,
   Quaternion,
-  Raycaster,
   Scene,
   Vector2,
   Vector3,
@@ -95,12 +94,13 @@ export class Stage {
   setAsset(loaded: LoadedAsset | null): void {
     if (this.loaded !== null) {
       this.background.setAsset(null);
-      this.scene.remove(this.loaded.asset.root);
-      this.loaded.asset.dispose();
+      this.scene.remove(this.loaded.root);
+      this.loaded.asset?.dispose();
+      this.loaded.plain?.dispose(this.scene);
     }
     this.loaded = loaded;
     this.measured = this.framed = null;
-    if (loaded !== null) this.scene.add(loaded.asset.root);
+    if (loaded !== null) this.scene.add(loaded.root);
   }
   setEnvironment(environment: LoadedEnvironment | null): void {
     if (this.environment !== environment) this.environment?.dispose();
@@ -138,7 +138,7 @@ export class Stage {
   }
 
   private inOwnFrame<T>(work: (root: Object3D) => T): T {
-    const root = this.loaded!.asset.root;
+    const { root } = this.loaded!;
     const [position, rotation] = [root.position.clone(), root.quaternion.clone()];
     root.position.set(0, 0, 0);
     root.quaternion.identity();
@@ -162,7 +162,7 @@ export class Stage {
       radiance: disc.radiance,
     }));
     const turn = new Quaternion(...view.environment.rotation);
-    const bands = this.loaded?.asset.info.bands ?? 5;
+    const bands = this.loaded?.asset?.info.bands ?? 5;
     this.light =
       this.environment?.light(bands).clone().rotate(turn) ?? new LambentLight(bands);
     for (const disc of discs) this.light.addDisc(disc);
@@ -195,9 +195,11 @@ export class Stage {
     this.background.visible = view.background;
 
     if (this.loaded === null) return;
-    const { asset } = this.loaded;
-    asset.root.position.set(...view.object.translation);
-    asset.root.quaternion.set(...view.object.rotation);
+    const { asset, plain, root } = this.loaded;
+    root.position.set(...view.object.translation);
+    root.quaternion.set(...view.object.rotation);
+    plain?.light(this.renderer, this.scene, seen, this.environment);
+    if (asset === null) return;
     asset.transfer = view.transfer;
     asset.macro = view.macro;
     asset.viewDependent = view.viewDependent;
@@ -218,7 +220,7 @@ export class Stage {
     return this.shownAir.air;
   }
   private dropAir(): void {
-    this.loaded?.asset.setAir(null);
+    this.loaded?.asset?.setAir(null);
     this.shownAir?.air.dispose();
     this.shownAir = null;
   }
@@ -236,7 +238,7 @@ export class Stage {
       [this.orthographic.top, this.orthographic.bottom] = [half, -half];
       [this.orthographic.right, this.orthographic.left] = [half * this.aspect, -half * this.aspect];
     }
-    fitClipping(camera, this.loaded?.asset.root ?? new Object3D());
+    fitClipping(camera, this.loaded?.root ?? new Object3D());
     return camera;
   }
 
@@ -244,10 +246,11 @@ export class Stage {
     const { x: width, y: height } = this.size;
     const camera = this.cameraOf(look);
     camera.setViewOffset(width, height, place[0] - 0.5, place[1] - 0.5, width, height);
-    if (this.loaded !== null) {
-      this.loaded.asset.samples = samples;
-      this.loaded.asset.sample = this.accumulator.count;
-      this.loaded.asset.update(this.renderer, camera);
+    const asset = this.loaded?.asset;
+    if (asset) {
+      asset.samples = samples;
+      asset.sample = this.accumulator.count;
+      asset.update(this.renderer, camera);
     }
     this.renderer.setRenderTarget(this.accumulator.frame);
     this.renderer.clear();
@@ -288,25 +291,6 @@ export class Stage {
     this.tone.render(this.renderer, this.accumulator.mean);
   }
 
-  /** The direction of the world that lies behind a pixel, and a surface there if there is one. */
-  pick(look: LookAt, x: number, y: number): { direction: Vector3; normal: Vector3 | null } {
-    const camera = this.cameraOf(look);
-    camera.clearViewOffset();
-    camera.updateMatrixWorld();
-    const caster = new Raycaster();
-    const { x: width, y: height } = this.size;
-    caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), camera);
-    const hit =
-      this.loaded === null
-        ? undefined
-        : caster.intersectObject(this.loaded.asset.root, true).find((each) => each.normal ?? each.face);
-    const normal = hit?.normal ?? hit?.face?.normal;
-    return {
-      direction: caster.ray.direction.clone(),
-      normal: normal ? normal.clone().transformDirection(hit!.object.matrixWorld) : null,
-    };
-  }
-
   dispose(): void {
     this.background.setAsset(null);
     this.setAsset(null);
@@ -315,6 +299,11 @@ export class Stage {
     this.accumulator.dispose();
     this.tone.dispose();
     this.renderer.dispose();
+  }
+  /** Gives the canvas's context back as well: browsers have a few alone. Nothing is drawn again. */
+  end(): void {
+    this.dispose();
+    this.renderer.forceContextLoss();
   }
 }
 

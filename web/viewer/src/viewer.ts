@@ -1,88 +1,66 @@
-// What is shown and how it changes: the view, the files behind it, and the frames that show it.
+// What is shown and how it changes: the view, and what is opened for it.
 import { Vector3 } from "three";
 import { kMostDiscs } from "three-lambent";
 import { azimuthElevationOf, kRadians } from "./directions";
 import { loadEnvironment, type LoadedEnvironment, type ReadFile } from "./environments";
-import { FrameGraph } from "./frame_graph";
+import { Frames } from "./frames";
 import { listen } from "./gestures";
-import { loadAsset } from "./load_asset";
-import type { AssetEntry, EnvironmentEntry } from "./manifest";
-import { LoadingBar, Messages } from "./messages";
+import { Library, type Opened } from "./library";
+import { freeAsset, loadAsset } from "./load_asset";
+import { LoadingBar, messageOf, Messages } from "./messages";
 import { orbit, pan, turnEnvironment, turnObject, zoom, type Grip } from "./orbit";
-import { SkyMap } from "./sky_map";
-import { skySource, type SkySettings } from "./sky_source";
-import { airs } from "./skies";
+import { progressiveRead } from "./read_url";
+import { SkyLight } from "./sky_light";
 import { Stage } from "./stage";
 import {
-  defaultView,
-  parseView,
-  type AirShown,
-  type DiscState,
-  type LookAt,
-  type Rotation,
-  type Triple,
-  type ViewState,
+  defaultView, parseView, type DiscState, type LookAt, type Triple, type ViewState,
 } from "./view_state";
-
-/** A file by its name: on the server, or dropped by a person. */
-export interface Opened {
-  name: string;
-  read: ReadFile;
-  view?: Record<string, unknown>;
-}
 
 const kRadiansPerPixel = 0.008;
 const kGoRound = 0.35; // radians a second
 /** Width over height that the manifest's views leave nothing out at. */
 const kViewsMadeFor = 1.15;
-const kSkyMean = 0.45; // what the mean radiance of a sky is exposed to
-const kStillAfter = 120; // milliseconds without a change until a picture is refined
 
 export class Viewer {
   readonly messages = new Messages();
   readonly loading = new LoadingBar();
-  readonly graph = new FrameGraph();
-  readonly sky: SkyMap;
+  readonly library = new Library((address) => progressiveRead(address, this.loading));
+  readonly sky = new SkyLight(this);
   view: ViewState = defaultView();
-  readonly assets: Opened[] = [];
-  readonly environments: EnvironmentEntry[] = [];
   asset = -1;
   disc = -1;
   grip: Grip = "camera";
   playing = false;
   unlit = false;
-  /** Whether the exposure follows the sky, and why the last one that was wanted is not shown. */
-  follows = true;
-  skyProblem: string | null = null;
   /** Called after anything changed that controls show. */
   changed: () => void = () => {};
+  /** Called after each frame; as {@link Picture.drawn} says. */
+  readonly framed = new Set<(now: number, work: number | null) => void>();
 
   private stage: Stage;
-  private readonly files = new Map<string, ReadFile>();
-  private scheduled = false;
-  private moved = true;
-  private done = false;
-  private lastChange = 0;
-  private lastFrame = 0;
-  private waiting: (() => void)[] = [];
-  private drawing: (() => void)[] = [];
-  private lost = false;
+  private readonly frames = new Frames({
+    ready: () => !this.lost && this.stage.loaded !== null,
+    advance: (seconds) => {
+      if (this.playing) this.turnLight(kGoRound * seconds, 0);
+      return this.playing;
+    },
+    drawMoving: () => {
+      this.stage.apply(this.view, this.unlit);
+      this.stage.drawMoving(this.camera());
+    },
+    refine: () => this.stage.refine(this.camera(), this.view.samples),
+    drawn: (now, work) => this.framed.forEach((each) => each(now, work)),
+  });
+  private readonly ended = new AbortController();
   private opening = 0;
-  private skiesWanted = 0;
-  private lastAir: AirShown = { metresPerUnit: 1, shafts: false };
-  private beforeSky: { source: string; rotation: Rotation; exposure: number } | null = null;
+  private lost = false;
 
   /** Throws where the browser gives no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.stage = new Stage(canvas);
-    this.sky = new SkyMap({
-      choose: (disc) => this.chooseDisc(disc),
-      move: (disc, azimuth, elevation) =>
-        this.change((view) => Object.assign(view.discs[disc]!, { azimuth, elevation })),
-      turn: (radians) => this.turnLight(radians, 0),
-    });
-    new ResizeObserver(() => this.resize()).observe(canvas);
-    listen(canvas, {
+    const sizes = new ResizeObserver(() => this.resize());
+    sizes.observe(canvas);
+    const unlisten = listen(canvas, {
       grip: () => this.grip,
       drag: (grip, x, y) => this.drag(grip, kRadiansPerPixel * x, kRadiansPerPixel * y),
       pan: (x, y) => this.pan(x, y),
@@ -90,14 +68,23 @@ export class Viewer {
       click: () => {},
       doubleClick: () => this.frame(),
     });
+    const { signal } = this.ended;
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       this.lost = true;
       this.messages.error(
         "The browser took the graphics context away; the picture comes back when it returns it.",
       );
-    });
-    canvas.addEventListener("webglcontextrestored", () => void this.restore());
+    }, { signal });
+    canvas.addEventListener("webglcontextrestored", () => void this.restore(), { signal });
+    signal.addEventListener("abort", () => (sizes.disconnect(), unlisten()));
+  }
+  /** Nothing is shown any more; the GPU holds nothing of it. */
+  end(): void {
+    ++this.opening;
+    this.ended.abort();
+    this.frames.stop();
+    this.stage.end();
   }
 
   // What the view says ----------------------------------------------------------------------------
@@ -111,11 +98,9 @@ export class Viewer {
   camera(): LookAt {
     return this.view.camera ?? this.stage.standardCamera();
   }
-  private touch(): void {
-    this.moved = true;
-    this.done = false;
-    this.lastChange = performance.now();
-    this.schedule();
+  /** Shows again what may have changed. */
+  touch(): void {
+    this.frames.touch();
     this.changed();
   }
 
@@ -147,19 +132,26 @@ export class Viewer {
   }
   /** As the asset was first shown. */
   reset(): void {
-    const own = this.assets[this.asset]?.view;
+    const own = this.library.assets[this.asset]?.view;
     const { source } = this.view.environment;
     this.view = this.viewOf(own);
     this.view.environment.source = source;
     this.disc = -1;
     this.unlit = false;
-    this.exposeSky();
+    this.sky.expose(this.view);
     this.play(false);
   }
+  /** Lets the light go round, or stops it. */
   play(on: boolean): void {
+    if (on && stillness().matches) {
+      this.messages.note(
+        "The light stays where it is: this browser asks for reduced motion. " +
+          "Shift + drag turns it.");
+      on = false;
+    }
     this.playing = on;
-    this.lastFrame = performance.now();
-    this.touch();
+    this.frames.begin();
+    this.changed();
   }
   /** Base colours instead of light: to see what the light does. */
   setUnlit(on: boolean): void {
@@ -192,103 +184,16 @@ export class Viewer {
     this.touch();
   }
 
-  // The sky ---------------------------------------------------------------------------------------
+  // What is opened --------------------------------------------------------------------------------
 
   /**
-   * Shows a sky in place of the environment: once its data is there, in the next frame. null: shows
-   * again what was there before.
+   * Shows an asset of the library, or one that comes to it. What cannot be shown says why, and the
+   * old one stays. `view`: what is shown of it; else what suits it, and the light that there is.
    */
-  async showSky(settings: SkySettings | null): Promise<void> {
-    const ticket = ++this.skiesWanted;
-    const before = this.beforeSky;
-    const wanted = settings === null ? null : skySource(settings);
-    try {
-      const source = wanted ?? before?.source ?? this.environments[0]?.source ?? "uniform:1";
-      const loaded = await loadEnvironment(source, this.files, this.stage.floatTextures);
-      if (ticket !== this.skiesWanted) return loaded.dispose();
-      const shown = this.view.environment;
-      const enters = wanted !== null && !shown.source.startsWith("sky:");
-      if (enters)
-        this.beforeSky = structuredClone({ ...shown, exposure: this.view.exposure });
-      this.stage.setEnvironment(loaded);
-      this.skyProblem = null;
-      this.change((view) => {
-        view.environment.source = source;
-        if (enters) view.environment.rotation = [0, 0, 0, 1]; // north is north
-        if (wanted === null && before !== null) {
-          view.environment.rotation = before.rotation;
-          view.exposure = before.exposure;
-        }
-      });
-      this.exposeSky();
-    } catch (error) {
-      if (ticket !== this.skiesWanted) return;
-      const text = error instanceof Error ? error.message : String(error);
-      this.skyProblem = text.replace(/^LambentSky: /, "");
-      this.changed();
-    }
-  }
-  /** Things are seen through the air of the sky, or not; with what has changed of how. */
-  async showAir(on: boolean, part: Partial<AirShown> = {}): Promise<void> {
-    const air = { ...this.lastAir, ...this.view.air, ...part };
-    this.lastAir = air;
-    this.change((view) => (view.air = on ? { ...air } : null));
-    await this.fetchAir();
-  }
-  /** What the air of a view is made with: it is there once it is wanted. */
-  private async fetchAir(): Promise<void> {
-    if (this.view.air === null || this.stage.air !== null) return;
-    try {
-      this.stage.air = await airs();
-      this.touch();
-    } catch (error) {
-      this.messages.error(error instanceof Error ? error.message : String(error));
-    }
-  }
-  /** Says so where a view that was opened has air that cannot be shown. */
-  private noteAir(): void {
-    if (this.view.air === null) return;
-    if (!this.stage.environment?.sky)
-      this.messages.note("The air of this view is not shown: it is that of a sky, which its light is not.");
-    else if (this.camera().orthographicHalfHeight !== null)
-      this.messages.note("The air of this view is not shown: an orthographic camera sees no distance.");
-  }
-  followSky(on: boolean): void {
-    this.follows = on;
-    this.exposeSky();
-    this.touch();
-  }
-  private exposeSky(): void {
-    const exposure = this.skyExposure();
-    if (this.follows && exposure !== null) this.change((view) => (view.exposure = exposure));
-  }
-  /** EV by which the mean radiance from everywhere becomes a middle tone; null: there is no sky. */
-  private skyExposure(): number | null {
-    const sky = this.stage.environment?.sky;
-    if (!sky) return null;
-    const [r, g, b] = sky.light(1).radiance({ x: 0, y: 1, z: 0 });
-    const mean = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    return Math.round(100 * Math.log2(kSkyMean / mean)) / 100;
-  }
-
-  // Files -----------------------------------------------------------------------------------------
-
-  addEnvironments(entries: readonly EnvironmentEntry[], read: (url: string) => ReadFile): void {
-    for (const entry of entries) {
-      this.environments.push(entry);
-      for (const [name, url] of Object.entries(entry.files)) this.files.set(name, read(url));
-    }
-  }
-  addAssets(entries: readonly AssetEntry[], read: (url: string) => ReadFile): void {
-    for (const entry of entries)
-      this.assets.push({ name: entry.name, read: read(entry.file), view: entry.view });
-  }
-
-  /** Shows an asset of the list. What cannot be shown says why, and the old one stays. */
-  async openAsset(index: number, view?: ViewState): Promise<boolean> {
-    const opened = this.assets[index]!;
+  async open(opened: Opened, view?: ViewState): Promise<boolean> {
     return this.attempt(`Loading ${opened.name}`, async (current) => {
       const next = view ?? this.viewOf(opened.view, this.asset < 0 ? undefined : this.view);
+      const { stage } = this;
       const reading = async () => {
         const bytes = await opened.read();
         this.loading.show(`Reading ${opened.name}`, null);
@@ -299,37 +204,44 @@ export class Viewer {
         this.readEnvironment(next.environment.source),
       ]);
       if (asset.status === "rejected" || light.status === "rejected" || !current()) {
-        if (asset.status === "fulfilled") asset.value.asset.dispose();
+        if (asset.status === "fulfilled") freeAsset(asset.value);
         if (light.status === "fulfilled") light.value?.dispose();
         for (const each of [asset, light]) if (each.status === "rejected") throw each.reason;
         return;
       }
-      const loaded = asset.value;
-      if (light.value !== null) this.stage.setEnvironment(light.value);
-      this.stage.setAsset(loaded);
-      this.asset = index;
+      if (light.value !== null) stage.setEnvironment(light.value);
+      stage.setAsset(asset.value);
+      this.asset = this.library.indexOf(opened);
+      if (this.asset < 0) this.asset = this.library.assets.push(opened) - 1;
       this.view = next;
+      if (view !== undefined) this.sky.opened();
       this.disc = Math.min(this.disc, next.discs.length - 1);
       this.touch();
-      await this.fetchAir();
-      await this.drawn();
-      const errors = this.stage.shaderErrors();
+      await this.sky.fetchAir();
+      await this.frames.drawn();
+      const errors = stage.shaderErrors();
       if (errors !== null)
         throw new Error(`The graphics driver cannot draw ${opened.name}: ${errors}`);
     });
   }
-  /** Shows an environment of the list. */
-  async openEnvironment(index: number): Promise<boolean> {
-    const { name, source } = this.environments[index]!;
+  openAsset(index: number, view?: ViewState): Promise<boolean> {
+    return this.open(this.library.assets[index]!, view);
+  }
+  /** Shows a SOURCE in place of the light there is; `name` is what it is called while it loads. */
+  async openSource(source: string, name = source): Promise<boolean> {
     return this.attempt(`Loading ${name}`, async () => {
-      ++this.skiesWanted; // what a sky that is still on its way would undo
+      this.sky.giveUp();
       await this.useEnvironment(source);
       this.change((view) => {
-        if (view.environment.source.startsWith("sky:") && this.beforeSky !== null)
-          view.exposure = this.beforeSky.exposure;
+        this.sky.leave(view);
         view.environment.source = source;
       });
     });
+  }
+  /** Shows an environment of the library. */
+  openEnvironment(index: number): Promise<boolean> {
+    const { name, source } = this.library.environments[index]!;
+    return this.openSource(source, name);
   }
   /** Shows a saved view. */
   async openView(json: unknown, name: string): Promise<boolean> {
@@ -337,70 +249,84 @@ export class Viewer {
       const view = parseView(json, name);
       if (view.discs.length > kMostDiscs)
         this.messages.note(`Mirrors and the background show the first ${kMostDiscs} discs alone.`);
-      ++this.skiesWanted;
-      await this.useEnvironment(view.environment.source);
-      this.view = view;
-      this.skyProblem = null;
-      this.follows = [null, view.exposure].includes(this.skyExposure());
+      await this.setView(view);
+      this.sky.opened();
       this.disc = -1;
       this.touch();
-      this.noteAir();
-      await this.fetchAir();
+      this.sky.noteAir();
     });
+  }
+  /** Shows an asset as a view has it; the one there is, if none is named. */
+  show(view: ViewState, opened?: Opened): Promise<boolean> {
+    const index = opened === undefined ? this.asset : this.library.indexOf(opened);
+    if (index >= 0 && index !== this.asset) return this.openAsset(index, view);
+    return this.attempt("Loading", () => this.setView(view));
+  }
+  private async setView(view: ViewState): Promise<void> {
+    this.sky.giveUp();
+    await this.useEnvironment(view.environment.source);
+    this.view = view;
+    this.disc = Math.min(this.disc, view.discs.length - 1);
+    this.touch();
+    await this.sky.fetchAir();
   }
   /** Dropped or picked: an asset, a light, or a saved view, by the file's name and content. */
   async openFile(file: File): Promise<boolean> {
+    const { name } = file;
     const read = () => file.arrayBuffer();
-    if (/\.(glb|gltf)$/i.test(file.name)) {
-      if (/\.gltf$/i.test(file.name))
-        return this.fail(`${file.name}: the page opens .glb, which holds everything in one file.`);
-      const known = this.assets.findIndex((each) => each.name === file.name);
-      const index = known < 0 ? this.assets.length : known;
-      const before = this.assets[index];
-      this.assets[index] = { name: file.name, read };
-      if (await this.openAsset(index)) return true;
-      if (before === undefined) this.assets.splice(index, 1);
-      else this.assets[index] = before;
-      this.changed();
-      return false;
-    }
-    if (/\.json$/i.test(file.name)) {
+    if (/\.gltf$/i.test(name))
+      return this.fail(`${name}: the page opens .glb, which holds everything in one file.`);
+    if (/\.glb$/i.test(name)) return this.openGiven({ name, read, origin: "file" });
+    if (/\.json$/i.test(name)) {
       let json: unknown;
       try {
         json = JSON.parse(await file.text());
       } catch {
-        return this.fail(`${file.name}: not JSON. The page reads saved views and lights.`);
+        return this.fail(`${name}: not JSON. The page reads saved views and lights.`);
       }
       if ((json as { lambent?: unknown } | null)?.lambent === "view")
-        return this.openView(json, file.name);
-    } else if (!/\.(hdr|exr|png|jpe?g)$/i.test(file.name)) {
+        return this.openView(json, name);
+    } else if (!/\.(hdr|exr|png|jpe?g)$/i.test(name)) {
       return this.fail(
-        `${file.name}: the page opens .glb, .hdr, .exr, .png, and saved views and lights as .json.`,
+        `${name}: the page opens .glb, .hdr, .exr, .png, and saved views and lights as .json.`,
       );
     }
-    return this.openLight(file.name, read);
+    return this.openLight(name, read);
   }
-  private async openLight(name: string, read: ReadFile): Promise<boolean> {
-    const before = this.files.get(name);
-    this.files.set(name, read);
-    const shown = await this.attempt(`Reading ${name}`, async () => {
-      await this.useEnvironment(name, true);
-      if (!this.environments.some((each) => each.source === name))
-        this.environments.push({ name, source: name, files: {} });
-      this.change((view) => (view.environment.source = name));
-    });
-    if (!shown && before === undefined) this.files.delete(name);
-    else if (!shown) this.files.set(name, before!);
-    return shown;
+  /** Takes the place of a file of the same name that was opened before. */
+  private async openGiven(opened: Opened): Promise<boolean> {
+    const { assets } = this.library;
+    const index = assets.findIndex((each) => each.name === opened.name && each.origin === "file");
+    if (index < 0) return this.open(opened);
+    const before = assets[index]!;
+    assets[index] = opened;
+    if (await this.openAsset(index)) return true;
+    assets[index] = before;
+    this.changed();
+    return false;
+  }
+  private openLight(name: string, read: ReadFile): Promise<boolean> {
+    const { library } = this;
+    return library.withLight(name, read, () =>
+      this.attempt(`Reading ${name}`, async () => {
+        await this.useEnvironment(name, true);
+        if (!library.environments.some((each) => each.source === name))
+          library.environments.push({ name, source: name, files: {} });
+        this.change((view) => (view.environment.source = name));
+      }));
   }
 
+  /** As an asset is shown where nothing was shown before. */
+  firstView(opened: Opened): ViewState {
+    return this.viewOf(opened.view);
+  }
   /** A view that suits an asset: what the manifest says of it, and of the last view what is not of
    * the old object. */
   private viewOf(members?: Record<string, unknown>, last?: ViewState): ViewState {
     const base = defaultView();
     if (last !== undefined)
       Object.assign(base, structuredClone(last), { camera: null, object: defaultView().object });
-    else if (this.environments.length > 0) base.environment.source = this.environments[0]!.source;
+    else base.environment.source = this.library.firstSource();
     if (members === undefined) return base;
     const view = parseView({ lambent: "view", ...members }, "manifest.json", base);
     // Set up for a window that is wider than high: a phone steps back.
@@ -415,13 +341,14 @@ export class Viewer {
   /** null: it is there already. */
   private async readEnvironment(source: string): Promise<LoadedEnvironment | null> {
     if (this.stage.environment?.source === source) return null;
-    return loadEnvironment(source, this.files, this.stage.floatTextures);
+    return loadEnvironment(source, this.library, this.stage.floatTextures);
   }
   private async useEnvironment(source: string, anew = false): Promise<void> {
     if (!anew && this.stage.environment?.source === source) return;
-    this.stage.setEnvironment(
-      await loadEnvironment(source, this.files, this.stage.floatTextures),
-    );
+    const { stage } = this;
+    const loaded = await loadEnvironment(source, this.library, stage.floatTextures);
+    if (this.ended.signal.aborted) return loaded.dispose();
+    this.stage.setEnvironment(loaded);
   }
   private fail(message: string): false {
     this.messages.error(message);
@@ -436,71 +363,28 @@ export class Viewer {
     this.loading.show(what, null);
     try {
       await work(() => ticket === this.opening);
-      this.messages.clearErrors();
+      // What came after has its own to say.
+      if (ticket === this.opening) this.messages.clearErrors();
       return true;
     } catch (error) {
-      return this.fail(error instanceof Error ? error.message : String(error));
+      return this.fail(messageOf(error));
     } finally {
       if (ticket === this.opening) this.loading.hide();
       this.changed();
     }
   }
 
-  // Frames ----------------------------------------------------------------------------------------
+  // The canvas ------------------------------------------------------------------------------------
 
   private resize(): void {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const width = Math.max(1, Math.round(this.canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(this.canvas.clientHeight * ratio));
-    if (width === this.canvas.width && height === this.canvas.height) return;
+    if (this.lost || (width === this.canvas.width && height === this.canvas.height)) return;
     this.stage.setSize(width, height);
     this.touch();
-    this.render(performance.now()); // at once: a canvas of new size is empty
+    this.frames.render(performance.now()); // at once: a canvas of new size is empty
   }
-  private schedule(): void {
-    if (this.scheduled || this.lost) return;
-    this.scheduled = true;
-    requestAnimationFrame((now) => {
-      this.scheduled = false;
-      this.render(now);
-    });
-  }
-  private render(now: number): void {
-    if (this.lost || this.stage.loaded === null) return;
-    if (this.playing) {
-      this.turnLight(kGoRound * Math.min(0.1, (now - this.lastFrame) / 1000), 0);
-      this.lastFrame = now;
-    }
-    const began = performance.now();
-    if (this.moved) {
-      this.moved = false;
-      this.stage.apply(this.view, this.unlit);
-      this.stage.drawMoving(this.camera());
-      this.graph.add(now, performance.now() - began);
-    } else if (!this.done && began - this.lastChange >= kStillAfter) {
-      this.done = this.stage.refine(this.camera(), this.view.samples);
-    }
-    this.sky.show(this.view, this.stage.environment, this.disc);
-    for (const resolve of this.drawing.splice(0)) requestAnimationFrame(() => resolve());
-    if (!this.done || this.moved) return this.schedule();
-    for (const resolve of this.waiting.splice(0)) resolve();
-  }
-  /** Resolves once the next frame is on the screen. */
-  drawn(): Promise<void> {
-    return new Promise((resolve) => {
-      this.drawing.push(resolve);
-      this.schedule();
-    });
-  }
-  /** Resolves once all samples of a still picture are shown. */
-  settled(): Promise<void> {
-    if (this.done && !this.moved) return Promise.resolve();
-    return new Promise((resolve) => {
-      this.waiting.push(resolve);
-      this.schedule();
-    });
-  }
-
   /** After the browser gave the context back: everything on the GPU is made anew. */
   private async restore(): Promise<void> {
     const environment = this.stage.environment?.source ?? this.view.environment.source;
@@ -508,8 +392,8 @@ export class Viewer {
     const { air } = this.stage;
     this.stage = new Stage(this.canvas);
     this.stage.air = air;
-    this.stage.setSize(this.canvas.width, this.canvas.height);
     this.lost = false;
+    this.stage.setSize(this.canvas.width, this.canvas.height);
     const view = structuredClone(this.view);
     view.environment.source = environment;
     if (this.asset >= 0) await this.openAsset(this.asset, view);
@@ -520,6 +404,12 @@ export class Viewer {
   get current(): Stage {
     return this.stage;
   }
+  drawn(): Promise<void> {
+    return this.frames.drawn();
+  }
+  settled(): Promise<void> {
+    return this.frames.settled();
+  }
   /** The picture as it is shown, once it is still. */
   async picture(): Promise<Blob> {
     this.play(false);
@@ -529,7 +419,7 @@ export class Viewer {
       this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture")))),
     );
   }
-  centre(): Vector3 {
-    return this.stage.extent().centre;
-  }
 }
+
+/** Whether nothing is to move by itself. */
+export const stillness = (): MediaQueryList => matchMedia("(prefers-reduced-motion: reduce)");
