@@ -8,6 +8,7 @@
 #include "lambent/asset/summary.h"
 #include "lambent/math/directions.h"
 #include "lambent/radiometry/luminance.h"
+#include "lambent/scene/source.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
 #include "lambent/transfer/names.h"
@@ -61,6 +62,19 @@ std::string describeMaterial(const scene::Material& material) {
     words += fmt::format("{}glossy {} with lobe exponent {:.4g}", words.empty() ? "" : " and ",
                          text(material.glossy), material.lobeExponent);
   return words.empty() ? "black" : words;
+}
+
+/// What a glTF file says of itself, as far as it says anything.
+std::string sayWhose(const scene::Source& source) {
+  std::string lines;
+  const auto say = [&](std::string_view what, const std::string& said) {
+    if (!said.empty()) lines += fmt::format("  {}: {:.400}\n", what, said);
+  };
+  say("scene", source.title);
+  say("copyright", source.copyright);
+  say("made by", source.generator);
+  say("the asset's extras", source.assetExtras);
+  return lines;
 }
 
 }  // namespace
@@ -117,6 +131,7 @@ Description describe(const scene::Scene& scene) {
   if (!scene.origin.isZero(0.0))
     d.text += fmt::format("  its origin lies at {} {} {} m of the file\n", scene.origin.x(),
                           scene.origin.y(), scene.origin.z());
+  if (scene.source) d.text += sayWhose(*scene.source);
   d.json = {{"vertices", vertices},
             {"triangles", triangles},
             {"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}},
@@ -125,6 +140,14 @@ Description describe(const scene::Scene& scene) {
             {"materials", materials},
             {"textures", textures},
             {"cameras", cameras}};
+  if (scene.source) {
+    const scene::Source& source = *scene.source;
+    d.json.update({{"name", source.title},
+                   {"copyright", source.copyright},
+                   {"generator", source.generator},
+                   {"asset_extras", Json::parse(source.assetExtras, nullptr, false)}});
+    if (d.json["asset_extras"].is_discarded()) d.json["asset_extras"] = nullptr;
+  }
   return d;
 }
 

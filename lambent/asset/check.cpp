@@ -43,6 +43,10 @@ Wrong faultOfGeometry(const scene::Mesh& mesh, std::size_t materials) {
       (!mesh.texelUvs.empty() && mesh.texelUvs.size() != vertices) ||
       (!mesh.colors.empty() && mesh.colors.size() != vertices))
     return std::string("texture coordinates or colours do not match the vertices");
+  for (const scene::VertexNumbers& numbers : mesh.others)
+    if (numbers.width < 1 || numbers.width > 4 ||
+        numbers.values.size() != std::size_t(numbers.width) * vertices)
+      return numbers.name + " does not match the vertices";
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t index : mesh.triangles[t])
       if (index >= vertices)

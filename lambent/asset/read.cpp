@@ -85,6 +85,8 @@ Status readTexelUvs(const GltfFile& file, const json& primitive, const json& obj
   mesh.texelUvs.resize(uvs->size() / 2);
   for (std::size_t v = 0; v < mesh.texelUvs.size(); ++v)
     mesh.texelUvs[v] = Vec2(uvs->data() + 2 * v);
+  std::erase_if(mesh.others,
+                [](const scene::VertexNumbers& numbers) { return numbers.name == "TEXCOORD_1"; });
   return Status::ok();
 }
 

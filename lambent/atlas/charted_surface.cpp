@@ -111,6 +111,7 @@ class AtlasMesh {
       if (!mesh.normals.empty()) mesh.normals.push_back(Vec3(mesh.normals[source]));
       if (!mesh.colors.empty()) mesh.colors.push_back(Rgb(mesh.colors[source]));
       if (!mesh.alphas.empty()) mesh.alphas.push_back(float(mesh.alphas[source]));
+      scene::copyVertex(mesh.others, source);
       mesh.uvs.emplace_back();
     }
     mesh.uvs[vertex] = uv;

@@ -79,7 +79,12 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const scene::Scene& scene,
 void replaceMaterial(scene::Scene& scene, std::uint32_t mesh, const transfer::EncodedRtt& rtt,
                      const Rgb& albedo, Findings& findings) {
   const scene::Material& old = scene.materials[std::size_t(scene.meshes[mesh].material)];
-  if (old.baseColorTexture >= 0 || !scene.meshes[mesh].colors.empty())
+  if (old.source >= 0)
+    findings.push_back({Severity::Note, "material-replaced",
+                        quoted(scene.meshes[mesh], mesh) +
+                            ": its material, with its name and textures, gives way to the patch's",
+                        1});
+  else if (old.baseColorTexture >= 0 || !scene.meshes[mesh].colors.empty())
     findings.push_back({Severity::Note, "colours-replaced",
                         quoted(scene.meshes[mesh], mesh) +
                             ": its texture or vertex colours give way to the patch's",
@@ -174,6 +179,7 @@ struct Spreader {
     const int material = scene.meshes[index].material;
     scene.meshes[index] = atlas->mesh;
     scene.meshes[index].material = material;
+    scene.meshes[index].source.uvSet = -1;
     const scene::Mesh& mesh = scene.meshes[index];
 
     auto combed = staged(progress, "tangent field", [&] {

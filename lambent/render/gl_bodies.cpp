@@ -10,8 +10,7 @@ Result<GlBodies> GlBodies::make(const capture::MovingScene& scene) {
   std::vector<std::uint32_t> indices;
   for (const capture::Body& body : scene.bodies) {
     if (body.mesh.triangles.empty()) continue;
-    scene::Box box;
-    for (const Vec3& p : body.mesh.positions) box.extend(p);
+    const scene::Box box = scene::bounds(body.mesh);
     float radius2 = 0;
     for (const Vec3& p : body.mesh.positions)
       radius2 = std::max(radius2, (p - box.center()).squaredNorm());

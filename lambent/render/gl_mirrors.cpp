@@ -25,12 +25,6 @@ bool isMirror(const scene::Scene& scene, std::uint32_t mesh) {
   return scene::materialOf(scene, scene.meshes[mesh]).isMirror();
 }
 
-scene::Box boxOf(const scene::Mesh& mesh) {
-  scene::Box box;
-  for (const Vec3& p : mesh.positions) box.extend(p);
-  return box;
-}
-
 /// How large a part of all directions a mesh's triangles cover, seen from a place, those that face
 /// away less those that face it: 4π inside of a body. (Van Oosterom and Strackee's formula.)
 double solidAngleAround(const scene::Mesh& mesh, const Vec3& place) {
@@ -51,7 +45,7 @@ double solidAngleAround(const scene::Mesh& mesh, const Vec3& place) {
 bool isBuried(const scene::Scene& scene, std::uint32_t mirror, const Vec3& place) {
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     if (m == mirror) continue;
-    const scene::Box box = boxOf(scene.meshes[m]);
+    const scene::Box box = scene::bounds(scene.meshes[m]);
     if ((place.array() < box.lower.array()).any() || (place.array() > box.upper.array()).any())
       continue;
     if (std::abs(solidAngleAround(scene.meshes[m], place)) > 3 * kPi) return true;
@@ -63,7 +57,7 @@ bool isBuried(const scene::Scene& scene, std::uint32_t mirror, const Vec3& place
 /// place before the mirror.
 Vec3 placeAt(const scene::Scene& scene, std::uint32_t mirror) {
   const scene::Mesh& mesh = scene.meshes[mirror];
-  const scene::Box box = boxOf(mesh);
+  const scene::Box box = scene::bounds(mesh);
   if (!isBuried(scene, mirror, box.center())) return box.center();
   constexpr std::size_t kTries = 16;
   const std::size_t count = mesh.positions.size();
@@ -106,7 +100,7 @@ Result<GlMirrors> GlMirrors::make(const scene::Scene& scene, int side) {
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m)
     if (!scene.meshes[m].triangles.empty() && isMirror(scene, m)) mirrors.push_back(m);
   std::vector<scene::Box> boxes(scene.meshes.size());
-  for (const std::uint32_t m : mirrors) boxes[m] = boxOf(scene.meshes[m]);
+  for (const std::uint32_t m : mirrors) boxes[m] = scene::bounds(scene.meshes[m]);
   std::stable_sort(mirrors.begin(), mirrors.end(), [&](std::uint32_t a, std::uint32_t b) {
     return boxes[a].diagonal() > boxes[b].diagonal();
   });

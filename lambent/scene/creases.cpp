@@ -129,6 +129,7 @@ std::size_t creaseNormals(Mesh& mesh, float angle) {
         appendCopy(mesh.texelUvs, vertex);
         appendCopy(mesh.colors, vertex);
         appendCopy(mesh.alphas, vertex);
+        copyVertex(mesh.others, vertex);
         mesh.normals.push_back(Vec3::Zero());
       }
       vertex = entry->second;

@@ -31,6 +31,7 @@ Mesh transformed(Mesh mesh, const Eigen::Matrix4d& dstFromSrc) {
     const double length = turned.norm();
     n = length > 0.0 ? Vec3((turned / length).cast<float>()) : Vec3(Vec3::Zero());
   }
+  transformTangents(mesh.others, linear);
   if (determinant < 0.0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }
@@ -58,6 +59,7 @@ Mesh rotated(Mesh mesh, const Vec3& axis, float radians) {
 Mesh flipped(Mesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   for (Vec3& n : mesh.normals) n = -n;
+  std::erase_if(mesh.others, [](const VertexNumbers& n) { return n.areTangents(); });
   return mesh;
 }
 
@@ -86,6 +88,7 @@ std::vector<std::uint32_t> dropUnusedVertices(Mesh& mesh) {
   keep(mesh.texelUvs);
   keep(mesh.colors);
   keep(mesh.alphas);
+  takeVertices(mesh.others, oldFromNew);
   for (Triangle& t : mesh.triangles)
     for (std::uint32_t& v : t) v = newFromOld[v];
   return oldFromNew;

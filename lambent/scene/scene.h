@@ -6,11 +6,13 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lambent/math/types.h"
+#include "lambent/scene/vertex_numbers.h"
 
 namespace lambent::scene {
 
@@ -40,6 +42,8 @@ struct Material {
   Rgb mirror = Rgb::Zero();
   Rgb transmitted = Rgb::Zero();
   float lobeExponent = 16.0f;  ///< r of the lobe, ≥ 0
+  /// glTF's, [0, 1], of what has no lobe: as the file says, for viewers that give it one.
+  float matteRoughness = 1.0f;
   Rgb emission = Rgb::Zero();  ///< radiance, W m⁻² sr⁻¹, ≥ 0; the base colour leaves it alone
   AlphaMode alphaMode = AlphaMode::Opaque;
   float alphaCutoff = 0.5f;   ///< ≥ 0, of Mask
@@ -48,6 +52,7 @@ struct Material {
   /// As the file says. Surfaces are lit and seen from their front alone: what has two sides has a
   /// back of triangles (scene/sheets.h), which loaders add where a surface that says so is open.
   bool doubleSided = false;
+  int source = -1;  ///< its number in the document of Scene::source, or −1
 
   bool isMirror() const { return mirror.maxCoeff() > 0.0f; }
   bool isGlossy() const { return !isMirror() && glossy.maxCoeff() > 0.0f; }
@@ -66,6 +71,15 @@ struct Texture {
   Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
   std::vector<std::uint8_t> encoded;  ///< PNG or JPEG bytes as found, may be empty
   std::string mimeType;               ///< "image/png" or "image/jpeg"
+  int source = -1;                    ///< its number in the document of Scene::source, or −1
+};
+
+/// Where a mesh stood in its file.
+struct MeshSource {
+  int node = -1;  ///< in Source::nodes
+  int mesh = -1;  ///< of the document, and which of its primitives
+  int primitive = -1;
+  int uvSet = -1;  ///< the TEXCOORD_n that Mesh::uvs are unchanged; −1: they are none
 };
 
 using Triangle =
@@ -82,7 +96,9 @@ struct Mesh {
   std::vector<Vec2> texelUvs;
   std::vector<Rgb> colors;    ///< linear COLOR_0, or empty
   std::vector<float> alphas;  ///< of COLOR_0, [0, 1], or empty: 1 everywhere
+  AllVertexNumbers others;    ///< what else the file has there
   std::vector<Triangle> triangles;
+  MeshSource source;
 };
 
 /// A pinhole or orthographic camera that looks along its −z with +y up, as glTF's.
@@ -91,7 +107,10 @@ struct Camera {
   Mat4 worldFromCamera = Mat4::Identity();
   float verticalFov = 0.7f;                     ///< radians; not used if orthographic
   std::optional<float> orthographicHalfHeight;  ///< metres, half the height of the view
+  int source = -1;                              ///< its node in Source::nodes, or −1
 };
+
+struct Source;  // scene/source.h
 
 struct Scene {
   /// Where (0, 0, 0) of everything here lies in the coordinates of the file, metres: zero unless
@@ -102,6 +121,7 @@ struct Scene {
   std::vector<Material> materials;  ///< at least one if there is a mesh
   std::vector<Texture> textures;
   std::vector<Camera> cameras;
+  std::shared_ptr<const Source> source;  ///< what it was read from, or null
 };
 
 /// The texture coordinates by which receivers on texels lie.
@@ -124,6 +144,8 @@ struct Box {
   }
 };
 
+/// Of all positions, those of no triangle too.
+Box bounds(const Mesh& mesh);
 Box bounds(const Scene& scene);
 
 /// Bilinear look-up in linear RGB; uv as glTF has it, (0, 0) the upper left corner.

@@ -1,6 +1,7 @@
 #include "lambent/scene/sheets.h"
 
 #include <cassert>
+#include <string>
 
 namespace lambent::scene {
 namespace {
@@ -22,6 +23,7 @@ Mesh withBacks(Mesh mesh) {
   appendAgain(mesh.texelUvs);
   appendAgain(mesh.colors);
   appendAgain(mesh.alphas);
+  appendBacks(mesh.others);
   for (std::size_t v = vertices; v < mesh.normals.size(); ++v) mesh.normals[v] = -mesh.normals[v];
   mesh.triangles.reserve(2 * triangles);
   const auto back = std::uint32_t(vertices);
@@ -63,6 +65,12 @@ std::uint32_t otherSideOf(const Mesh& mesh, std::uint32_t triangle) {
 void layOutBacks(Mesh& mesh) {
   assert(hasBacks(mesh));
   std::vector<Vec2>& uvs = mesh.texelUvs.empty() ? mesh.uvs : mesh.texelUvs;
+  if (mesh.texelUvs.empty() && mesh.source.uvSet >= 0) {  // others may look up textures with them
+    VertexNumbers& kept = mesh.others.emplace_back(
+        VertexNumbers{"TEXCOORD_" + std::to_string(mesh.source.uvSet), 2, {}});
+    for (const Vec2& uv : uvs) kept.values.insert(kept.values.end(), {uv.x(), uv.y()});
+    mesh.source.uvSet = -1;
+  }
   std::vector<float> shift(uvs.size(), 0.0f);
   for (std::size_t t = mesh.triangles.size() / 2; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t]) shift[v] = 0.5f;

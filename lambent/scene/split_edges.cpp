@@ -233,6 +233,7 @@ SplitScene splitEdges(const Scene& scene, const SceneEdges& edges,
     append(mesh.texelUvs, made);
     append(mesh.colors, made);
     append(mesh.alphas, made);
+    for (const auto& [a, b] : made) addMiddle(mesh.others, a, b);
     appendNormals(mesh.normals, made);
     split.middles.push_back(std::move(made));
   }

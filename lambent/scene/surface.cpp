@@ -92,10 +92,19 @@ const Material& materialOf(const Scene& scene, const Mesh& mesh) {
   return known ? scene.materials[std::size_t(mesh.material)] : kDefault;
 }
 
+Box bounds(const Mesh& mesh) {
+  Box box;
+  for (const Vec3& p : mesh.positions) box.extend(p);
+  return box;
+}
+
 Box bounds(const Scene& scene) {
   Box box;
   for (const Mesh& mesh : scene.meshes) {
-    for (const Vec3& p : mesh.positions) box.extend(p);
+    if (mesh.positions.empty()) continue;
+    const Box own = bounds(mesh);
+    box.extend(own.lower);
+    box.extend(own.upper);
   }
   return box;
 }

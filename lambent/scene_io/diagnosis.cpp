@@ -170,6 +170,7 @@ void finishNormals(Mesh& mesh, const FinishOptions& options, std::span<const std
     diagnosis.add(Severity::Warning, "normals-flipped", opposite,
                   "normals pointed to the back of their triangles and were flipped to the front",
                   place);
+    dropTangents(mesh, place, diagnosis);
   }
   if (useless > 0) {
     makeNormals(mesh, groups, place, diagnosis);
@@ -179,6 +180,7 @@ void finishNormals(Mesh& mesh, const FinishOptions& options, std::span<const std
     diagnosis.add(Severity::Warning, "zero-normals", useless,
                   "normals were zero or not finite; angle-weighted ones were made in their place",
                   place);
+    dropTangents(mesh, place, diagnosis);
   }
   mesh.normals = std::move(own);
 }
@@ -229,6 +231,17 @@ Findings Diagnosis::findings() const {
     findings.push_back({entry.severity, code, std::move(message), entry.count, entry.loss});
   }
   return findings;
+}
+
+void dropTangents(Mesh& mesh, const std::string& place, Diagnosis& diagnosis) {
+  const auto gone = std::erase_if(
+      mesh.others, [](const scene::VertexNumbers& numbers) { return numbers.areTangents(); });
+  if (gone > 0)
+    diagnosis.lose(Severity::Note, "tangents-dropped", 1,
+                   "meshes have tangents for normals that are no longer theirs, which were left "
+                   "out: other viewers make tangents of their own for normal maps; export the mesh "
+                   "as it is posed, with normals, to keep them",
+                   place);
 }
 
 Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& file,
@@ -293,6 +306,10 @@ Status finishMesh(Mesh& mesh, const FinishOptions& options, const std::string& f
     if (!options.keepAllVertices) groups.resize(oldFromNew.size());
     renumber(groups);
   }
+  // Without normals tangents mean nothing, says glTF.
+  if (mesh.normals.empty())
+    std::erase_if(mesh.others,
+                  [](const scene::VertexNumbers& numbers) { return numbers.areTangents(); });
   const std::size_t unsplit = mesh.positions.size();
   finishNormals(mesh, options, groups, place, diagnosis);
   if (kept != nullptr && mesh.positions.size() != unsplit) *kept = false;

@@ -53,6 +53,9 @@ struct FinishOptions {
   std::span<const std::uint32_t> groups;
 };
 
+/// Where normals became others than tangents were made for: viewers make their own.
+void dropTangents(scene::Mesh& mesh, const std::string& place, Diagnosis& diagnosis);
+
 /// Checks and repairs a mesh whose indices are already known to be in range:
 ///  - degenerate triangles (a height below a millionth of the longest side) are kept out;
 ///  - unused vertices are dropped;

@@ -29,9 +29,11 @@ Status morph(const GltfFile& file, const json& primitive, const std::vector<doub
              const std::string& place, scene::Mesh& mesh, Diagnosis& diagnosis) {
   const json* targets = find(primitive, "targets");
   if (arraySize(targets) == 0) return Status::ok();
-  diagnosis.add(
+  diagnosis.lose(
       Severity::Note, "morph-targets", 1,
-      "primitives have morph targets, which were taken at the weights that the file gives", place);
+      "primitives have morph targets, which were taken at the weights that the file gives: the "
+      "asset has that shape alone; to bake another, set its weights and export the file again",
+      place);
   const auto add = [&](const json& target, const char* name, float weight,
                        std::vector<Vec3>& to) -> Status {
     const auto accessor = integer(target, name);
@@ -94,8 +96,9 @@ Result<std::optional<GltfSkin>> GltfSkin::of(const GltfFile& file, std::int64_t 
           Eigen::Map<const Eigen::Matrix4f>(inverse->data() + 16 * i).cast<double>();
     }
   }
-  diagnosis.add(Severity::Note, "skin-posed", 1,
-                "skins were posed as their joints stand in the file: nothing is animated");
+  diagnosis.lose(Severity::Note, "skin-posed", 1,
+                 "skins were posed as their joints stand in the file, and are not in the asset: it "
+                 "has that pose alone; to bake another, pose the scene and export it again");
   return std::optional(std::move(result));
 }
 

@@ -79,11 +79,11 @@ constexpr Extension kExtensions[] = {
     {"MSFT_packing_*", Without::Same, "textures packed otherwise than glTF does are not looked at"},
     {"MSFT_lod", Without::Same, "the finest level of detail is baked, and none of the others"},
     {"KHR_animation_pointer", Without::Same, "what it would move stands still"},
-    {"KHR_node_hoverability", Without::Same, "it says nothing about light"},
-    {"KHR_node_selectability", Without::Same, "it says nothing about light"},
+    {"KHR_node_hoverability", Without::Same, ""},
+    {"KHR_node_selectability", Without::Same, ""},
     {"KHR_interactivity", Without::Same, "what it would change stays as it is"},
     {"KHR_audio*", Without::Same, "sound is left out"},
-    {"KHR_xmp*", Without::Same, "what it says about the file's origin is not kept"},
+    {"KHR_xmp*", Without::Same, ""},
     {"EXT_mesh_features", Without::Same, "what it says about parts of a mesh is not kept"},
     {"EXT_instance_features", Without::Same, "what it says about instances is not kept"},
     {"EXT_structural_metadata", Without::Same, "what it says about parts of a mesh is not kept"},
@@ -110,8 +110,12 @@ const Extension* entryOf(std::string_view name) {
   return entry == std::end(kExtensions) ? nullptr : entry;
 }
 
-/// How often each extension is used. Any member called "extensions" but for those of "extras".
-std::map<std::string, std::uint64_t> usesIn(const json& document) {
+/// A file may invent as many names as it likes.
+constexpr std::size_t kMostNames = 32;
+
+}  // namespace
+
+std::map<std::string, std::uint64_t> extensionsIn(const json& document) {
   std::map<std::string, std::uint64_t> uses;
   std::vector<const json*> pending{&document};
   while (!pending.empty()) {
@@ -133,11 +137,6 @@ std::map<std::string, std::uint64_t> usesIn(const json& document) {
   return uses;
 }
 
-/// A file may invent as many names as it likes.
-constexpr std::size_t kMostNames = 32;
-
-}  // namespace
-
 bool mayBeRequired(std::string_view name) {
   const Extension* entry = entryOf(name);
   return entry != nullptr && entry->without != Without::Wrong;
@@ -149,8 +148,20 @@ std::string remedyFor(std::string_view extension) {
                                                     : "export it without this extension";
 }
 
+bool isCarried(std::string_view name) {
+  constexpr std::string_view kCarried[] = {"*_materials_*",
+                                           "KHR_texture_transform",
+                                           "KHR_lights_punctual",
+                                           "KHR_node_visibility",
+                                           "KHR_node_hoverability",
+                                           "KHR_node_selectability",
+                                           "KHR_xmp*"};
+  return std::any_of(std::begin(kCarried), std::end(kCarried),
+                     [&](std::string_view pattern) { return fits(name, pattern); });
+}
+
 void noteExtensions(const json& document, Diagnosis& diagnosis) {
-  std::map<std::string, std::uint64_t> uses = usesIn(document);
+  std::map<std::string, std::uint64_t> uses = extensionsIn(document);
   const json* declared = find(document, "extensionsUsed");
   for (std::size_t i = 0; i < arraySize(declared); ++i) {
     if ((*declared)[i].is_string()) uses.try_emplace((*declared)[i].get<std::string>(), 0);
@@ -170,6 +181,7 @@ void noteExtensions(const json& document, Diagnosis& diagnosis) {
       const std::string remedy = remedyFor(name);
       what += "; " + remedy + (entry != nullptr && !entry->remedy.empty() ? "" : " if it matters");
     }
+    if (isCarried(name)) what += "; what is written keeps it for other viewers";
     const std::string code = "extension-" + shown;
     if (count == 0) {
       diagnosis.add(Severity::Note, code, 0, shown + " is declared and not read; nothing uses it");

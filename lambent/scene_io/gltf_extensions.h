@@ -1,6 +1,8 @@
 // The extensions of glTF: which are read, and what it changes that another is not.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -11,6 +13,12 @@ namespace lambent::scene_io {
 
 /// Whether a file may require it: it is read, or what is left without it is not of a wrong shape.
 bool mayBeRequired(std::string_view name);
+
+/// Whether it stands in what is written as it was found: what it says is right there too.
+bool isCarried(std::string_view name);
+
+/// How often each extension is used: any member called "extensions" but for those of "extras".
+std::map<std::string, std::uint64_t> extensionsIn(const nlohmann::json& document);
 
 /// What to do about a file that requires another one.
 std::string remedyFor(std::string_view extension);

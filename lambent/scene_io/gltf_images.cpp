@@ -1,5 +1,6 @@
 #include "lambent/scene_io/gltf_images.h"
 
+#include "lambent/image/decode.h"
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/linked_files.h"
@@ -92,30 +93,16 @@ Result<GltfPicture> GltfImages::read(std::int64_t image, const std::string& key)
     return picture;
   }
   const std::string uri = text(object, "uri");
+  const bool isLink = !uri.empty() && !integer(object, "bufferView");
+  if (isLink && !file_.linkedFiles().mayReadUri(uri))
+    return file_.linkedFiles().outside("image " + std::to_string(image), uri);
   std::vector<std::byte> linked;
-  std::span<const std::byte> bytes;
-  if (const auto view = integer(object, "bufferView")) {
-    const auto found = file_.bufferViewBytes(*view);
-    if (!found) {
-      picture.missing = found.error().message;
-      return picture;
-    }
-    bytes = *found;
-  } else if (!uri.empty()) {
-    const std::string what = "image " + std::to_string(image);
-    LinkedFiles& files = file_.linkedFiles();
-    if (!files.mayReadUri(uri)) return files.outside(what, uri);
-    auto content = files.readUri(uri, what);
-    if (!content) {
-      picture.missing = content.error().message;
-      return picture;
-    }
-    linked = std::move(*content);
-    bytes = linked;
-  } else {
-    picture.missing = place + " has neither a uri nor bytes";
+  const Result<std::span<const std::byte>> found = bytesOf(image, linked);
+  if (!found) {
+    picture.missing = found.error().message;
     return picture;
   }
+  const std::span<const std::byte> bytes = *found;
   file::Budget& budget = file_.budget();
   Result<scene::Texture> texture = decodeTexture(bytes, place, budget);
   if (!texture && !isReadablePicture(bytes)) {
@@ -130,6 +117,52 @@ Result<GltfPicture> GltfImages::read(std::int64_t image, const std::string& key)
     budget.release(picture.texture.rgba.size() + picture.texture.encoded.size());
     picture.texture = {};
   }
+  return picture;
+}
+
+Result<std::span<const std::byte>> GltfImages::bytesOf(std::int64_t image,
+                                                       std::vector<std::byte>& linked) const {
+  const json* object = element(file_.json(), "images", image);
+  if (const auto view = integer(object, "bufferView")) return file_.bufferViewBytes(*view);
+  const std::string uri = text(object, "uri"), what = "image " + std::to_string(image);
+  if (uri.empty())
+    return report::badInput(file_.path().string() + ": " + what + " has neither a uri nor bytes");
+  LinkedFiles& files = file_.linkedFiles();
+  if (!files.mayReadUri(uri)) return files.outside(what, uri);
+  Result<std::vector<std::byte>> content = files.readUri(uri, what);
+  if (!content) return content.error();
+  linked = std::move(*content);
+  return std::span<const std::byte>(linked);
+}
+
+Result<scene::SourcePicture> GltfImages::carried(std::int64_t image, std::string& missing) const {
+  std::vector<std::byte> linked;
+  const Result<std::span<const std::byte>> bytes = bytesOf(image, linked);
+  if (!bytes) {
+    missing = bytes.error().message;
+    return scene::SourcePicture();
+  }
+  const std::string place = file_.path().string() + ": image " + std::to_string(image);
+  file::Budget& budget = file_.budget();
+  const image::Format format = image::formatOf(*bytes);
+  const std::string uri = text(element(file_.json(), "images", image), "uri");
+  scene::SourcePicture picture;
+  if (format == image::Format::Png || format == image::Format::Jpeg) {
+    picture.mimeType = format == image::Format::Png ? "image/png" : "image/jpeg";
+    const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes->data());
+    picture.encoded.assign(data, data + bytes->size());
+  } else if (Result<scene::Texture> texture = decodeTexture(*bytes, place, budget); texture) {
+    const std::vector<std::byte> png =
+        image::encodePng(texture->width, texture->height, 4, texture->rgba);
+    const auto* const data = reinterpret_cast<const std::uint8_t*>(png.data());
+    picture.mimeType = "image/png";
+    picture.encoded.assign(data, data + png.size());
+    budget.release(texture->rgba.size());
+  } else {
+    missing = texture.error().message;
+  }
+  if (!linked.empty() && !isDataUri(uri)) budget.release(linked.size());
+  if (Status fits = budget.hold(picture.encoded.size(), place); !fits) return fits.error();
   return picture;
 }
 

@@ -5,8 +5,11 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <set>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "lambent/scene/source.h"
 #include "lambent/scene_io/gltf_read.h"
 
 namespace lambent::scene_io {
@@ -31,9 +34,16 @@ class GltfImages {
   Result<GltfPicture*> pictureOf(std::int64_t texture);
   /// The name of its image.
   std::string nameOf(std::int64_t texture) const;
+  /// Its image, or −1.
+  std::int64_t sourceOf(std::int64_t texture) const;
+  /// An image as it can stand in another file: PNG and JPEG as they are found, WebP as PNG. Without
+  /// bytes if it cannot be read, and `missing` says why; an error where it takes too much memory.
+  Result<scene::SourcePicture> carried(std::int64_t image, std::string& missing) const;
 
  private:
-  std::int64_t sourceOf(std::int64_t texture) const;
+  /// Its bytes, which may lie in `linked`; the error says what is wrong.
+  Result<std::span<const std::byte>> bytesOf(std::int64_t image,
+                                             std::vector<std::byte>& linked) const;
   /// The extension that a texture without a `source` has its image by, or nothing.
   std::string formatOf(std::int64_t texture) const;
   std::string keyOf(std::int64_t image) const;

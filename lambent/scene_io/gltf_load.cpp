@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <new>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -19,6 +20,7 @@
 #include "lambent/scene_io/gltf_origin.h"
 #include "lambent/scene_io/gltf_primitive.h"
 #include "lambent/scene_io/gltf_read.h"
+#include "lambent/scene_io/gltf_source.h"
 #include "lambent/scene_io/gltf_types.h"
 #include "lambent/scene_io/mesh_bytes.h"
 #include "lambent/scene_io/two_sides.h"
@@ -62,7 +64,7 @@ class Loader {
   Status addMesh(Mesh mesh, LoadedGltf::Origin origin, const std::string& place);
   Status addBacks();
   void noteLosses();
-  void placeCamera(const json& node, const Mat4d& world);
+  void placeCamera(const json& node, const GltfNode& placed);
 
   const GltfFile& file_;
   const json& document_;
@@ -105,7 +107,7 @@ Status Loader::visitNodes() {
     if (const auto mesh = integer(object, "mesh"); mesh && shown) {
       if (Status status = placeMesh(node, *mesh); !status) return status;
     }
-    if (find(object, "camera") != nullptr) placeCamera(object, node.worldFromNode);
+    if (find(object, "camera") != nullptr) placeCamera(object, node);
   }
   return Status::ok();
 }
@@ -158,10 +160,14 @@ Result<Mesh> Loader::readPrimitive(const json& node, const json& meshJson, const
                                    const std::string& place, int material, bool& posed) {
   const Result<GltfPrimitive> source = GltfPrimitive::open(file_, primitive, place);
   if (!source) return source.error();
-  Result<Mesh> mesh = source->mesh(uvsOf(*source, material, place));
+  const TextureUse use = uvsOf(*source, material, place);
+  Result<Mesh> mesh = source->mesh(use);
   if (!mesh) return mesh;
   mesh->material = material;
   if (mesh->positions.empty()) return mesh;
+  const bool wanted = materials_->usesBesides(material, use.texCoord);
+  if (Status status = source->readOthers(use, wanted, *mesh, diagnosis_); !status)
+    return status.error();
   const auto isWhole = [](float alpha) { return alpha >= 1.0f; };
   if (result_.loaded.scene.materials[std::size_t(material)].alphaMode == scene::AlphaMode::Opaque ||
       std::all_of(mesh->alphas.begin(), mesh->alphas.end(), isWhole))
@@ -177,12 +183,15 @@ Result<Mesh> Loader::readPrimitive(const json& node, const json& meshJson, const
       !status) {
     return status.error();
   }
+  if (find(primitive, "targets") != nullptr && !morphWeights(node, meshJson).empty())
+    dropTangents(*mesh, place, diagnosis_);
   const Result<const GltfSkin*> skin = skinOf(node);
   if (!skin) return skin.error();
   if (*skin == nullptr) return mesh;
   const Result<bool> done = source->pose(**skin, *mesh);
   if (!done) return done.error();
   posed = *done;
+  if (posed) dropTangents(*mesh, place, diagnosis_);
   return mesh;
 }
 
@@ -229,6 +238,9 @@ Status Loader::placePrimitive(const GltfNode& node, std::span<const Mat4d> insta
   Result<Mesh> read = readPrimitive(nodeJson, meshJson, primitive, place, *material, posed);
   if (!read) return read.error();
   read->name = name;
+  read->source.node = int(&node - nodes_.data());
+  read->source.mesh = origin.mesh;
+  read->source.primitive = origin.primitive;
   if (several) read->name += fmt::format("/{}", origin.primitive);
   // A skinned mesh does not follow its node (§3.7.3.3): its joints hold it, or as modelled it
   // stands in world space.
@@ -292,19 +304,27 @@ void Loader::noteLosses() {
   }
 }
 
-void Loader::placeCamera(const json& node, const Mat4d& world) {
+void Loader::placeCamera(const json& node, const GltfNode& placed) {
+  const Mat4d& world = placed.worldFromNode;
   const json* object = element(document_, "cameras", integer(node, "camera").value_or(-1));
   if (object == nullptr) return;
+  const auto ignored = [&](const std::string& name) {
+    diagnosis_.lose(Severity::Warning, "camera-ignored", 1,
+                    "cameras have no valid transform or no valid angle and were left out: no view "
+                    "can be taken from them; set them right where the file was made",
+                    name);
+  };
   scene::Camera camera;
+  camera.source = int(&placed - nodes_.data());
   camera.name = text(&node, "name");
   if (camera.name.empty()) camera.name = text(object, "name");
   if (text(object, "type") == "orthographic") {
     camera.orthographicHalfHeight =
         float(std::abs(number(find(object, "orthographic"), "ymag", 1.0)));
-    if (!(*camera.orthographicHalfHeight > 0.0f)) return;
+    if (!(*camera.orthographicHalfHeight > 0.0f)) return ignored(camera.name);
   } else {
     camera.verticalFov = float(number(find(object, "perspective"), "yfov", 0.7));
-    if (!(camera.verticalFov > 1e-4f && camera.verticalFov < 3.14f)) return;
+    if (!(camera.verticalFov > 1e-4f && camera.verticalFov < 3.14f)) return ignored(camera.name);
   }
   // Scale in the nodes above moves a camera and does not stretch its picture.
   const Vec3d back = world.col(2).head<3>().normalized();
@@ -312,9 +332,7 @@ void Loader::placeCamera(const json& node, const Mat4d& world) {
   Mat4d rigid = world;
   rigid.topLeftCorner<3, 3>() << right, back.cross(right), back;
   if (!rigid.allFinite() || std::abs(rigid.determinant() - 1.0) > 1e-6) {
-    diagnosis_.lose(Severity::Warning, "camera-ignored", 1,
-                    "cameras have no valid transform and were left out", camera.name);
-    return;
+    return ignored(camera.name);
   }
   // A rigid transform stays as it is, to the bit.
   camera.worldFromCamera =
@@ -335,6 +353,11 @@ Result<LoadedGltf> Loader::load() {
     return bad("holds no triangles; Lambent needs a surface to bake" +
                (types == wrong.end() ? std::string() : ". " + types->message));
   }
+  const auto materials = std::span(std::as_const(result_.loaded.scene.materials))
+                             .first(arraySize(find(document_, "materials")));
+  auto kept = sourceOf(file_, nodes_, materials, materials_->images(), diagnosis_);
+  if (!kept) return kept.error();
+  result_.loaded.scene.source = std::move(*kept);
   if (Status status = addBacks(); !status) return status.error();
   noteLosses();
   result_.loaded.findings = diagnosis_.findings();

@@ -6,6 +6,7 @@
 #include "lambent/radiometry/srgb.h"
 #include "lambent/scene_io/gltf_json.h"
 #include "lambent/scene_io/gltf_material.h"
+#include "lambent/scene_io/gltf_source.h"
 #include "lambent/scene_io/gltf_specular.h"
 
 namespace lambent::scene_io {
@@ -84,8 +85,15 @@ TextureUse GltfMaterials::textureUse(int material) const {
   return it == uses_.end() ? TextureUse() : it->second;
 }
 
+bool GltfMaterials::usesBesides(int material, int texCoord) const {
+  const auto it = otherTexCoords_.find(material);
+  return it != otherTexCoords_.end() && it->second.contains(texCoord);
+}
+
 Status GltfMaterials::readMaterial(const json& object, int index) {
   scene::Material material;
+  material.source = index;
+  otherTexCoords_[index] = otherTexCoords(object);
   material.name = text(&object, "name");
   material.doubleSided = flag(&object, "doubleSided");
   const std::string place = "material " + std::to_string(index) +
@@ -106,8 +114,11 @@ Status GltfMaterials::readMaterial(const json& object, int index) {
     material.baseColorTexture = *texture;
   }
   if (find(object, "normalTexture") != nullptr) {
-    diagnosis_.lose(Severity::Note, "normal-map-ignored", 1,
-                    "normal maps are ignored: transfer is baked on the mesh itself", place);
+    diagnosis_.lose(
+        Severity::Note, "normal-map-ignored", 1,
+        "normal maps are ignored: transfer is baked on the mesh itself; what is written "
+        "keeps them for other viewers",
+        place);
   }
   const Result<Rgb> emission = readEmission(object, place);
   if (!emission) return emission.error();
@@ -151,15 +162,20 @@ Status GltfMaterials::readMetallicRoughness(const json& object, const std::strin
   }
   values.metallic = number(pbr, "metallicFactor", 1.0);
   values.roughness = number(pbr, "roughnessFactor", 1.0);
+  // As written beside exact values, before textures multiply it: those need not be looked at.
+  if (applyExtras(object, Beside::Source, values, material)) return Status::ok();
   const Result<GltfPicture*> picture = pictureOf(find(pbr, "metallicRoughnessTexture"));
   if (!picture) return picture.error();
   if (*picture != nullptr) {
     values.metallic *= (*picture)->meanChannels[2];
     values.roughness *= (*picture)->meanChannels[1];
-    diagnosis_.lose(Severity::Note, "mean-metallic-roughness", 1,
-                    "metallic-roughness textures were replaced by their mean", place);
+    diagnosis_.lose(
+        Severity::Note, "mean-metallic-roughness", 1,
+        "metallic-roughness textures were replaced by their mean; what is written keeps "
+        "them for other viewers",
+        place);
   }
-  if (applyExtras(object, values, material)) return Status::ok();
+  if (applyExtras(object, Beside::Exact, values, material)) return Status::ok();
   applyMetallicRoughness(values, material);
   if (Status status = readTransmission(object, place, material); !status) return status;
   return addSpecular(object, 1.0 - std::clamp(values.metallic, 0.0, 1.0), values.roughness, place,
@@ -175,8 +191,11 @@ Status GltfMaterials::readTransmission(const json& object, const std::string& pl
   if (!picture) return picture.error();
   if (*picture != nullptr && share > 0.0) {
     share *= (*picture)->meanChannels[0];
-    diagnosis_.lose(Severity::Note, "mean-transmission", 1,
-                    "textures of transmission were replaced by their mean", place);
+    diagnosis_.lose(
+        Severity::Note, "mean-transmission", 1,
+        "textures of transmission were replaced by their mean; what is written keeps them "
+        "for other viewers",
+        place);
   }
   applyTransmission(share, material);
   return Status::ok();
@@ -214,8 +233,11 @@ Status GltfMaterials::readSpecularGlossiness(const json& extension, const std::s
   if (*gloss != nullptr) {
     values.specular *= (*gloss)->meanColor;
     values.glossiness *= (*gloss)->meanChannels[3];
-    diagnosis_.lose(Severity::Note, "mean-specular-glossiness", 1,
-                    "specular-glossiness textures were replaced by their mean", place);
+    diagnosis_.lose(
+        Severity::Note, "mean-specular-glossiness", 1,
+        "specular-glossiness textures were replaced by their mean; what is written keeps "
+        "them for other viewers",
+        place);
   }
   const Result<GltfPicture*> diffuse = pictureOf(info);
   if (!diffuse) return diffuse.error();
@@ -246,7 +268,9 @@ Result<Rgb> GltfMaterials::readEmission(const json& object, const std::string& p
     if (!picture) return picture.error();
     emission *= (*picture)->meanColor;
     diagnosis_.lose(Severity::Note, "mean-emission", 1,
-                    "emissive textures were replaced by their mean", place);
+                    "emissive textures were replaced by their mean; what is written keeps them for "
+                    "other viewers",
+                    place);
   }
   return emission;
 }
@@ -281,6 +305,7 @@ Result<int> GltfMaterials::readTexture(std::int64_t index) {
     texture = first;
   }
   texture.name = images_.nameOf(index);
+  texture.source = int(index);
   texture.wrapU = wrapOf(integer(sampler, "wrapS"));
   texture.wrapV = wrapOf(integer(sampler, "wrapT"));
   entry->second = int(scene_.textures.size());

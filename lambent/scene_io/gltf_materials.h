@@ -3,6 +3,7 @@
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 
 #include "lambent/scene_io/diagnosis.h"
@@ -18,6 +19,7 @@ struct TextureUse {
   Vec2 offset = Vec2::Zero(), scale = Vec2::Ones();
   float rotation = 0.0f;
   Vec2 apply(const Vec2& uv) const;
+  bool moves() const { return !offset.isZero(0.0f) || scale != Vec2::Ones() || rotation != 0.0f; }
 };
 
 /// Appends to scene.materials and scene.textures. Scene material i is glTF material i, so that what
@@ -33,6 +35,9 @@ class GltfMaterials {
   /// The scene material of a primitive.
   Result<int> indexOf(const nlohmann::json& primitive, const std::string& place);
   TextureUse textureUse(int material) const;
+  /// Whether a material has another texture than that of its base colour on a TEXCOORD_n.
+  bool usesBesides(int material, int texCoord) const;
+  GltfImages& images() { return images_; }
 
  private:
   Status readMaterial(const nlohmann::json& object, int index);
@@ -57,6 +62,7 @@ class GltfMaterials {
   Diagnosis& diagnosis_;
   GltfImages images_;
   std::map<int, TextureUse> uses_;
+  std::map<int, std::set<int>> otherTexCoords_;
   std::map<std::int64_t, int> textures_;  ///< scene texture by glTF texture
   std::map<bool, int> defaults_;          ///< scene material by "has vertex colours"
 };

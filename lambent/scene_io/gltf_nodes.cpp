@@ -104,10 +104,10 @@ Result<std::vector<GltfNode>> nodesOf(const GltfFile& file, Diagnosis& diagnosis
       return bad(name + " is reached twice: nodes form a cycle or share a child; export it again");
     }
     visited[std::size_t(node)] = true;
-    pending.push_back({node, parent.worldFromNode, parent.hidden});
+    pending.push_back({node, parent.worldFromNode, parent.hidden, parent.index});
     return Status::ok();
   };
-  const GltfNode world{-1, Matrix4d::Identity(), false};
+  const GltfNode world{-1, Matrix4d::Identity(), false, -1};
   const std::vector<std::int64_t> first = rootsOf(document);
   for (auto it = first.rbegin(); it != first.rend(); ++it) {
     if (Status status = push(*it, world); !status) return status.error();
@@ -153,9 +153,17 @@ Result<std::vector<Matrix4d>> instancesOf(const GltfFile& file, const json& node
                                           std::int64_t index, Diagnosis& diagnosis) {
   const json* extension = find(find(node, "extensions"), "EXT_mesh_gpu_instancing");
   const json* attributes = find(extension, "attributes");
-  if (attributes == nullptr) return std::vector<Matrix4d>{Matrix4d::Identity()};
+  if (attributes == nullptr || !attributes->is_object())
+    return std::vector<Matrix4d>{Matrix4d::Identity()};
   const std::string place =
       file.path().string() + ": node " + std::to_string(index) + ", EXT_mesh_gpu_instancing";
+  for (const auto& [name, ignored] : attributes->items())
+    if (name != "TRANSLATION" && name != "ROTATION" && name != "SCALE")
+      diagnosis.lose(Severity::Note, "instance-attributes", 1,
+                     "attributes of instances are not kept: every instance is a mesh of its own, "
+                     "and only where it stands is known; make nodes of them that say the rest in "
+                     "their extras",
+                     place + ": " + name.substr(0, 100));
   struct Part {
     const char* name;
     int width;

@@ -15,7 +15,8 @@ namespace lambent::scene_io {
 struct GltfNode {
   std::int64_t index = 0;
   Eigen::Matrix4d worldFromNode;
-  bool hidden = false;  ///< it or one above it, by KHR_node_visibility
+  bool hidden = false;       ///< it or one above it, by KHR_node_visibility
+  std::int64_t parent = -1;  ///< its index; −1: the scene
 };
 
 /// All nodes of the scene that is shown (of the file, if it has no scenes), each after its parent

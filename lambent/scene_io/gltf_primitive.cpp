@@ -1,7 +1,10 @@
 #include "lambent/scene_io/gltf_primitive.h"
 
+#include <algorithm>
+#include <cmath>
 #include <tuple>
 
+#include "lambent/scene_io/gltf_component.h"
 #include "lambent/scene_io/gltf_json.h"
 
 namespace lambent::scene_io {
@@ -138,12 +141,108 @@ Result<Mesh> GltfPrimitive::mesh(const TextureUse& use) const {
     if (!uvs) return uvs.error();
     mesh.uvs.resize(count);
     for (std::size_t i = 0; i < count; ++i) mesh.uvs[i] = use.apply(Vec2(uvs->data() + 2 * i));
+    if (!use.moves()) mesh.source.uvSet = use.texCoord;
   }
   if (Status status = readColors(mesh); !status) return status.error();
   Result<std::vector<scene::Triangle>> read = triangles(count);
   if (!read) return read.error();
   mesh.triangles = std::move(*read);
   return mesh;
+}
+
+namespace {
+
+/// glTF wants texture coordinates, colours and tangents in these components alone.
+bool isPlain(Component component, bool normalized) {
+  return component == Component::Float || (normalized && (component == Component::UnsignedByte ||
+                                                          component == Component::UnsignedShort));
+}
+
+/// A tangent is of unit length and has a hand.
+bool makeTangentsWhole(std::vector<float>& values) {
+  for (std::size_t i = 0; i + 3 < values.size(); i += 4) {
+    Eigen::Map<Vec3> tangent(values.data() + i);
+    const float squared = tangent.squaredNorm();
+    if (!(squared > 1e-12f)) return false;
+    if (std::abs(squared - 1.0f) > 1e-6f) tangent.normalize();
+    values[i + 3] = values[i + 3] < 0.0f ? -1.0f : 1.0f;
+  }
+  return true;
+}
+
+/// A file may give a mesh as many as it likes.
+constexpr std::size_t kMostOthers = 32;
+
+}  // namespace
+
+Result<std::optional<scene::VertexNumbers>> GltfPrimitive::other(const std::string& name,
+                                                                 std::size_t count,
+                                                                 std::string& why) const {
+  const std::int64_t index = integer(find(primitive_, "attributes"), name).value_or(-1);
+  const json* accessor = element(file_.json(), "accessors", index);
+  const int width = componentCountOf(text(accessor, "type"));
+  const auto component = componentOf(integer(accessor, "componentType"));
+  const std::optional<scene::VertexNumbers> none;
+  why = "is not of one to four numbers for each vertex";
+  if (width < 1 || width > 4 || text(accessor, "type") == "MAT2" || !component ||
+      *component == Component::UnsignedInt || integer(accessor, "count") != std::int64_t(count))
+    return none;
+  if ((name.starts_with("TEXCOORD_") && width != 2) || (name.starts_with("COLOR_") && width < 3) ||
+      (name == "TANGENT" && width != 4))
+    return none;
+  const std::string place = file_.path().string() + ": " + place_ + ": " + name;
+  if (Status fits = file_.budget().work(std::uint64_t(width) * count * sizeof(float), place); !fits)
+    return fits.error();
+  Result<std::vector<float>> values = floats(name, width);
+  if (!values || values->size() != std::size_t(width) * count) return none;
+  why = "has numbers that are not finite";
+  const bool finite =
+      std::all_of(values->begin(), values->end(), [](float f) { return std::isfinite(f); });
+  if (!finite) return none;
+  scene::VertexNumbers numbers{name, width, std::move(*values), int(*component),
+                               flag(accessor, "normalized")};
+  why = "has no direction somewhere";
+  if (numbers.areTangents() && !makeTangentsWhole(numbers.values)) return none;
+  if (!name.starts_with('_') && !isPlain(*component, numbers.normalized)) {
+    numbers.component = int(Component::Float);
+    numbers.normalized = false;
+  }
+  return std::optional(std::move(numbers));
+}
+
+Status GltfPrimitive::readOthers(const TextureUse& use, bool wanted, Mesh& mesh,
+                                 Diagnosis& diagnosis) const {
+  const json* attributes = find(primitive_, "attributes");
+  if (attributes == nullptr || !attributes->is_object()) return Status::ok();
+  const std::string uvs = "TEXCOORD_" + std::to_string(use.texCoord);
+  for (const auto& [name, ignored] : attributes->items()) {
+    const bool isCoordinates = name.starts_with("TEXCOORD_");
+    if (name == "POSITION" || name == "NORMAL" || name == "COLOR_0" ||
+        name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") ||
+        (name == uvs && !(use.moves() && wanted)))
+      continue;
+    std::string why = "is not of a kind that glTF knows";
+    std::optional<scene::VertexNumbers> numbers;
+    if (isCoordinates || name.starts_with("COLOR_") || name == "TANGENT" || name.starts_with('_')) {
+      Result<std::optional<scene::VertexNumbers>> read = other(name, mesh.positions.size(), why);
+      if (!read) return read.error();
+      numbers = std::move(*read);
+    }
+    if (numbers && mesh.others.size() >= kMostOthers) {
+      why = "comes after so many others";
+      numbers.reset();
+    }
+    if (numbers) {
+      mesh.others.push_back(std::move(*numbers));
+      continue;
+    }
+    diagnosis.lose(
+        Severity::Note, "attributes-lost", 1,
+        "attributes of vertices are not kept, and not in what is written: light does not "
+        "ask for them, other programs might; export them as glTF has it",
+        place_ + ": " + name.substr(0, 100) + " " + why);
+  }
+  return Status::ok();
 }
 
 Result<bool> GltfPrimitive::pose(const GltfSkin& skin, Mesh& mesh) const {

@@ -28,6 +28,11 @@ class GltfPrimitive {
   /// Without positions it is empty: nothing to see, says the specification.
   Result<scene::Mesh> mesh(const TextureUse& use) const;
 
+  /// Gives it what else the file has at its vertices: all but what mesh() reads, joints and
+  /// weights. `wanted`: whether the coordinates that `use` moves are looked up unmoved, too.
+  Status readOthers(const TextureUse& use, bool wanted, scene::Mesh& mesh,
+                    Diagnosis& diagnosis) const;
+
   /// Poses a mesh that mesh() gave. False where the primitive says nothing about joints.
   Result<bool> pose(const GltfSkin& skin, scene::Mesh& mesh) const;
 
@@ -41,6 +46,9 @@ class GltfPrimitive {
   Result<std::vector<float>> floats(const std::string& attribute, int width) const;
   Result<std::vector<scene::Triangle>> triangles(std::size_t vertices) const;
   Status readColors(scene::Mesh& mesh) const;
+  /// Nothing, and `why`, if it cannot be kept.
+  Result<std::optional<scene::VertexNumbers>> other(const std::string& name, std::size_t count,
+                                                    std::string& why) const;
 
   const GltfFile& file_;
   const nlohmann::json& primitive_;

@@ -67,6 +67,7 @@ void applySpecularGlossiness(const SpecularGlossiness& values, const Rgb& textur
     material.mirror = values.specular;
     return;
   }
+  material.matteRoughness = float(roughness);
   material.lobeExponent = lobeExponentFromRoughness(roughness);
   material.glossy = inUnit(glossy / textureMean.max(1e-3f));
 }

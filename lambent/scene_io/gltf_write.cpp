@@ -12,6 +12,8 @@
 #include "lambent/scene_io/gltf_component.h"
 #include "lambent/scene_io/gltf_material.h"
 #include "lambent/scene_io/gltf_origin.h"
+#include "lambent/scene_io/gltf_write_source.h"
+#include "lambent/scene_io/vertex_bytes.h"
 
 namespace lambent::scene_io {
 namespace {
@@ -64,12 +66,12 @@ struct GltfBuilder::Impl {
   Json document = Json::object();
   std::vector<std::byte> binary;
 
-  void addMaterial(const scene::Material& material);
+  Json materialJson(const scene::Material& material);
   void use(const char* key, std::string_view extension);
   Json camera(const scene::Camera& camera, float diagonal);
 };
 
-void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
+Json GltfBuilder::Impl::materialJson(const scene::Material& material) {
   const MetallicRoughness pbr = metallicRoughnessOf(material);
   const bool opaque = material.alphaMode == scene::AlphaMode::Opaque;
   const double opacity = opaque ? 1.0 : double(material.opacity);
@@ -105,7 +107,7 @@ void GltfBuilder::Impl::addMaterial(const scene::Material& material) {
     }
   }
   setName(object, material.name);
-  append(document, "materials", std::move(object));
+  return object;
 }
 
 void GltfBuilder::Impl::use(const char* key, std::string_view extension) {
@@ -137,6 +139,14 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     document["scenes"][0]["extras"] = originExtras(scene.origin);
   }
 
+  std::optional<SourceWriter> source;
+  if (scene.source) {
+    source.emplace(scene, document, [this](const std::vector<std::uint8_t>& picture) {
+      return addBufferView(asBytes(picture));
+    });
+    source->writeHead();
+  }
+
   for (const scene::Texture& texture : scene.textures) {
     std::vector<std::byte> png;
     const bool carried = !texture.encoded.empty() &&
@@ -145,15 +155,26 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     Json image = {{"bufferView", addBufferView(carried ? asBytes(texture.encoded) : png)},
                   {"mimeType", carried ? texture.mimeType : "image/png"}};
     setName(image, texture.name);
-    const int source = append(document, "images", std::move(image));
-    const int sampler = append(document, "samplers",
-                               {{"magFilter", 9729},
-                                {"minFilter", 9987},
-                                {"wrapS", wrapCode(texture.wrapU)},
-                                {"wrapT", wrapCode(texture.wrapV)}});
-    append(document, "textures", {{"source", source}, {"sampler", sampler}});
+    const bool known = source && texture.source >= 0;
+    Json object = {{"source", document.contains("images") ? document["images"].size() : 0}};
+    if (known) {
+      source->dressTexture(texture, image, object);
+    } else {
+      object["sampler"] = append(document, "samplers",
+                                 {{"magFilter", 9729},
+                                  {"minFilter", 9987},
+                                  {"wrapS", wrapCode(texture.wrapU)},
+                                  {"wrapT", wrapCode(texture.wrapV)}});
+    }
+    const int place = append(document, "images", std::move(image));
+    append(document, "textures", std::move(object));
+    if (known) source->note(texture, place);
   }
-  for (const scene::Material& material : scene.materials) impl_->addMaterial(material);
+  for (const scene::Material& material : scene.materials) {
+    Json object = impl_->materialJson(material);
+    if (source) object = source->material(material, object);
+    append(document, "materials", std::move(object));
+  }
 
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const scene::Mesh& mesh = scene.meshes[i];
@@ -162,8 +183,7 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     Json attributes = Json::object();
     const int positions =
         addAccessor(asBytes(mesh.positions), Component::Float, "VEC3", count, false, kArrayBuffer);
-    scene::Box box;
-    for (const Vec3& p : mesh.positions) box.extend(p);
+    const scene::Box box = scene::bounds(mesh);
     Json& accessor = document["accessors"][positions];
     accessor["min"] = {box.lower.x(), box.lower.y(), box.lower.z()};
     accessor["max"] = {box.upper.x(), box.upper.y(), box.upper.z()};
@@ -180,6 +200,7 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
       attribute("COLOR_0", asBytes(mesh.colors), "VEC3");
     else
       attribute("COLOR_0", asBytes(withAlphas(mesh)), "VEC4");
+    if (source) addOthers(mesh, source->uvSlotsOf(mesh), attributes);
 
     int indices = 0;
     const std::size_t indexCount = 3 * mesh.triangles.size();
@@ -201,15 +222,21 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     }
     Json meshJson = {{"primitives", Json::array({std::move(primitive)})}};
     setName(meshJson, mesh.name);
+    if (source) source->dressMesh(mesh, meshJson);
     append(document, "meshes", std::move(meshJson));
+  }
+  const bool treed = source && source->writeNodes();
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (treed && scene.meshes[i].source.node >= 0) continue;
     Json node = {{"mesh", i}};
-    setName(node, mesh.name);
+    setName(node, scene.meshes[i].name);
     file::arrayAt(document["scenes"][0], "nodes")
         .push_back(append(document, "nodes", std::move(node)));
   }
 
   const float diagonal = scene.cameras.empty() ? 0.0f : bounds(scene).diagonal();
   for (const scene::Camera& camera : scene.cameras) {
+    if (treed && camera.source >= 0) continue;
     Json node = {{"camera", append(document, "cameras", impl_->camera(camera, diagonal))}};
     Json matrix = Json::array();
     for (int column = 0; column < 4; ++column) {
@@ -219,6 +246,40 @@ GltfBuilder::GltfBuilder(const scene::Scene& scene) : impl_(std::make_unique<Imp
     setName(node, camera.name);
     file::arrayAt(document["scenes"][0], "nodes")
         .push_back(append(document, "nodes", std::move(node)));
+  }
+  if (source) source->declareExtensions();
+}
+
+void GltfBuilder::addOthers(const scene::Mesh& mesh, const std::vector<UvSlot>& sets,
+                            Json& attributes) {
+  const auto add = [&](const std::string& name, const scene::VertexNumbers& numbers) {
+    const VertexBytes packed = vertexBytes(numbers);
+    const int view = addBufferView(packed.bytes, kArrayBuffer);
+    if (packed.stride != packed.elementSize)
+      impl_->document["bufferViews"][view]["byteStride"] = packed.stride;
+    Json accessor = {{"bufferView", view},
+                     {"componentType", numbers.component},
+                     {"type", packed.type},
+                     {"count", mesh.positions.size()}};
+    if (numbers.normalized) accessor["normalized"] = true;
+    attributes[name] = append(impl_->document, "accessors", std::move(accessor));
+  };
+  for (const UvSlot& slot : sets) {
+    const std::string name = "TEXCOORD_" + std::to_string(slot.slot);
+    if (slot.numbers != nullptr)
+      add(name, *slot.numbers);
+    else
+      attributes[name] = addAccessor(asBytes(*slot.uvs), Component::Float, "VEC2",
+                                     mesh.positions.size(), false, kArrayBuffer);
+  }
+  int color = 1;
+  for (const scene::VertexNumbers& numbers : mesh.others) {
+    std::string name = numbers.name;
+    if (name.starts_with("TEXCOORD_")) continue;
+    // Colours are numbered without a gap.
+    if (name.starts_with("COLOR_"))
+      name = attributes.contains("COLOR_0") ? "COLOR_" + std::to_string(color++) : "_" + name;
+    add(name, numbers);
   }
 }
 

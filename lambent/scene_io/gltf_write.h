@@ -1,8 +1,9 @@
 // Scene → glTF 2.0 document, open for a caller that adds an extension before it is written.
 //
-// Primitive order: glTF mesh i, its single primitive and node i belong to scene.meshes[i]; glTF
-// material i to scene.materials[i]; nodes have the identity transform, because a Scene is in world
-// space. Cameras follow as further nodes.
+// Primitive order: glTF mesh i and its single primitive belong to scene.meshes[i]; glTF material i
+// to scene.materials[i]. Node i shows mesh i, and cameras follow as further nodes; or, where the
+// scene has a source, the tree of its nodes is there (gltf_write_source.h). Nodes that show a mesh
+// have the identity transform, because a Scene is in world space.
 //
 // A reader needs <nlohmann/json.hpp> only in the .cpp that calls json():
 //
@@ -27,6 +28,8 @@
 #include "lambent/scene/scene.h"
 
 namespace lambent::scene_io {
+
+struct UvSlot;
 
 /// glTF's componentType.
 enum class Component {
@@ -65,12 +68,17 @@ class GltfBuilder {
   Result<std::vector<std::byte>> glb() const;
 
  private:
+  /// What a mesh has at its vertices besides.
+  void addOthers(const scene::Mesh& mesh, const std::vector<UvSlot>& sets,
+                 nlohmann::json& attributes);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
 /// Writes a scene as .glb, atomically. load() reads the same scene back: reflectances and lobe
-/// exponents that metallic-roughness cannot say exactly are kept in material.extras.lambent.
+/// exponents that metallic-roughness cannot say exactly are kept in material.extras.lambent. What
+/// its source said beyond the scene (scene/source.h) is said again.
 Status saveGlb(const scene::Scene& scene, const std::filesystem::path& path);
 
 }  // namespace lambent::scene_io

@@ -300,7 +300,7 @@ class Layout {
         to.texelUvs = std::move(to.uvs);
         to.uvs.clear();
         for (const std::uint32_t v : l.packed.sourceVertex) to.uvs.push_back(from.uvs[v]);
-      } else if (scene::materialOf(out.first, to).baseColorTexture >= 0) {
+      } else if (to.source.uvSet = -1; scene::materialOf(out.first, to).baseColorTexture >= 0) {
         // Without coordinates the texture was not there: it must not come with those of texels.
         scene::Material bare = scene::materialOf(out.first, to);
         bare.baseColorTexture = -1;

@@ -75,9 +75,7 @@ std::vector<std::pair<Side, Side>> seamsOf(const scene::Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
   for (const scene::Triangle& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) ++uses[std::minmax({corners[t[k]], corners[t[(k + 1) % 3]]})];
-  scene::Box box;
-  for (const Vec3& p : mesh.positions) box.extend(p);
-  const float tolerance = std::max(kApart * box.diagonal(), 1e-30f);
+  const float tolerance = std::max(kApart * scene::bounds(mesh).diagonal(), 1e-30f);
   OpenEdges open(mesh, tolerance);
   std::vector<std::pair<Side, Side>> seams;
   for (const scene::Triangle& t : mesh.triangles)

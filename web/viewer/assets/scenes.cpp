@@ -83,8 +83,8 @@ Result<asset::Asset> stillLife() {
     const float t = 1.0f - 2.0f * float(i) / kSteps;
     band.push_back({0.262f + 0.010f * t * t, 0.068f - 0.066f * t});
   }
-  band.push_back(band.front());
-  // In the middle of the plinth, whose circles of vertices then follow the ring's shadow.
+  // It ends where it began, and is closed. In the middle of the plinth, whose circles of vertices
+  // then follow the ring's shadow.
   add(scene, "ring", turned(band, 112), gold);
 
   const Result<trace::RayScene> rays = trace::RayScene::build(scene);

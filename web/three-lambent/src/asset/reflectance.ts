@@ -50,7 +50,8 @@ export function reflectanceOf(material: unknown, colored: boolean): Reflectance 
     metallic >= 0.999 && roughness <= 0.05
       ? { diffuse: black(), mirror: base, transmitted: black(), base }
       : { diffuse: share(1 - passed), mirror: black(), transmitted: share(passed), base };
-  // Exact numbers, where the file carries them and nobody has edited what stands beside them.
+  // Exact numbers, where the file carries them and nobody has edited what stands beside them: what
+  // they come to, or what a source had there, which is then said.
   const exact = ((material as Json).extras as Json | undefined)?.lambent as Json | undefined;
   const diffuse = triple(exact?.diffuse);
   const glossy = triple(exact?.glossy);
@@ -58,10 +59,21 @@ export function reflectanceOf(material: unknown, colored: boolean): Reflectance 
   const transmitted = triple(exact?.transmitted) ?? black();
   if (!diffuse || !glossy || !mirror) return plain;
   const isMirror = Math.max(...mirror) > 0;
+  const found = { diffuse: isMirror ? black() : diffuse, mirror, transmitted, base };
+  const beside = exact?.beside as Json | undefined;
+  const besideBase = triple(beside?.baseColor);
+  if (besideBase) {
+    const near = (a: number, b: number) => Math.abs(a - b) < 1e-4;
+    return besideBase.every((v, c) => near(v, base[c])) &&
+      near(factor(beside?.metallic), metallic) &&
+      near(factor(beside?.roughness), roughness)
+      ? found
+      : plain;
+  }
   const sum = isMirror ? mirror : [0, 1, 2].map((c) => clamp(diffuse[c] + glossy[c] + transmitted[c]));
   if (sum.some((v, c) => Math.abs(v - base[c]) >= 1e-4)) return plain;
   const total = [...diffuse, ...glossy, ...transmitted].reduce((a, b) => a + b, 0);
   const metal = isMirror ? 1 : total > 0 ? glossy.reduce((a, b) => a + b, 0) / total : 0;
   if (Math.abs(metal - metallic) >= 1e-4) return plain;
-  return { diffuse: isMirror ? black() : diffuse, mirror, transmitted, base };
+  return found;
 }
