@@ -58,14 +58,9 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const SynthesizeRequest& argumen
   }
   for (const std::string& wanted : arguments.meshes) {
     const std::size_t before = chosen.size();
-    std::string names;
-    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
-      const std::string& name = scene.meshes[m].name;
-      if (name == wanted || std::to_string(m) == wanted) chosen.push_back(m);
-      names += (names.empty() ? "" : ", ") + (name.empty() ? std::to_string(m) : name);
-    }
-    if (chosen.size() == before)
-      return badUsage(fmt::format("--mesh {}: there is no such mesh; there are {}", wanted, names));
+    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m)
+      if (scene.meshes[m].name == wanted || std::to_string(m) == wanted) chosen.push_back(m);
+    if (chosen.size() == before) return noSuch("--mesh", wanted, "mesh", meshNames(scene));
   }
   if (chosen.empty())
     return badInput(arguments.scene.path.string() +
