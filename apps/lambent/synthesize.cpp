@@ -121,6 +121,8 @@ std::size_t makeWhole(scene::Scene& scene) {
 }
 
 Status run(SynthesizeRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
+  if (Status s = console.takeOutput(arguments.output, "-o", ".glb"); !s) return s;
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
   files.writes("--atlas-picture", arguments.atlasPicture, {".png"});
@@ -213,7 +215,8 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
   app->add_option("--rtt", arguments->rtt, "The patch: what 'lambent rtt' wrote")
       ->option_text("PATCH.rtt")
       ->required();
-  app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
+  app->add_option("-o,--output", arguments->output,
+                  "The asset to write, a .glb; - : standard output")
       ->option_text("ASSET.glb")
       ->required();
   addNumber(*app, "--patch-width", options.patchWidth, {0.0, 1e6},
