@@ -26,4 +26,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/lambentConfigVersio
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lambentConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/lambentConfigVersion.cmake
         DESTINATION ${package})
+# What --json prints.
+install(DIRECTORY spec/json/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lambent/json
+        FILES_MATCHING PATTERN "*.json")
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

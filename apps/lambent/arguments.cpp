@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "apps/lambent/nearest_word.h"
 #include "lambent/file/extension.h"
 
 namespace lambent::tool {
@@ -76,6 +78,25 @@ Result<Rgb> parseReflectance(std::string_view text) {
 
 std::string formatSize(const Size& size) {
   return fmt::format("{}x{}", size.width, size.height);
+}
+
+Error noSuch(std::string_view option, std::string_view given, std::string_view kind,
+             const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 20;
+  const std::vector<std::string> told(names.begin(), names.begin() + std::min(names.size(), kMost));
+  std::string there = names.empty() ? "none" : fmt::format("{}", fmt::join(told, ", "));
+  if (names.size() > kMost) there += fmt::format(" and {} more", names.size() - kMost);
+  const std::string meant = nearestWord(given, names);
+  return badUsage(fmt::format("{} {}: there is no such {}; there {} {}{}", option, given, kind,
+                              names.size() < 2 ? "is" : "are", there,
+                              meant.empty() ? "" : fmt::format(". Did you mean '{}'?", meant)));
+}
+
+std::vector<std::string> meshNames(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m)
+    names.push_back(scene.meshes[m].name.empty() ? std::to_string(m) : scene.meshes[m].name);
+  return names;
 }
 
 std::string extensionOf(const std::filesystem::path& path) {

@@ -12,6 +12,7 @@
 #include "apps/lambent/numbers.h"
 #include "lambent/math/types.h"
 #include "lambent/report/result.h"
+#include "lambent/scene/scene.h"
 
 namespace lambent::tool {
 
@@ -77,6 +78,13 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
       description);
   return option->check(CLI::IsMember(words))->default_str(wordOf(value, choices));
 }
+
+/// BadUsage that names what there is: "--mesh ear: there is no such mesh; there are head, foot".
+/// `names`: what the file calls them; of many the first few are told, with how many more.
+Error noSuch(std::string_view option, std::string_view given, std::string_view kind,
+             const std::vector<std::string>& names);
+/// What an option may call the meshes of a scene: by name, or by number where there is none.
+std::vector<std::string> meshNames(const scene::Scene& scene);
 
 /// The error of writing an output file: a full disk or a forbidden folder is a matter of what the
 /// person gave, as an unusable input is.

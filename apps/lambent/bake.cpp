@@ -53,6 +53,8 @@ constexpr std::string_view kBakeExamples = R"(Examples:
 )";
 
 Status runBake(BakeRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
+  if (Status s = console.takeOutput(arguments.output, "-o", ".glb"); !s) return s;
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
   files.reads("SCENE", arguments.scene.path);
@@ -145,7 +147,8 @@ Verb addBake(CLI::App& root, ConsoleOptions& common) {
   macro::BakeOptions& options = arguments->transfer.options;
   arguments->scene.addTo(*app);
   arguments->scene.addSidesTo(*app);
-  app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
+  app->add_option("-o,--output", arguments->output,
+                  "The asset to write, a .glb; - : standard output")
       ->option_text("ASSET.glb")
       ->required();
   arguments->transfer.addTo(*app);

@@ -289,7 +289,9 @@ bool holdsReceivers(const std::filesystem::path& path) {
   return extension == ".csv" || extension == ".ply";
 }
 
-Status runCompare(const CompareRequest& arguments, Console& console) {
+Status runCompare(CompareRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.truth, "A"); !s) return s;
+  if (Status s = console.takeInput(arguments.judged, "B"); !s) return s;
   const bool receivers = holdsReceivers(arguments.truth);
   if (receivers != holdsReceivers(arguments.judged))
     return badUsage("compare two pictures, or two outputs of 'lambent shade'");
@@ -316,7 +318,8 @@ Status runCompare(const CompareRequest& arguments, Console& console) {
   if (!exceeded.empty()) {
     console.keep(json);
     if (!console.options().json)
-      if (const Status said = print(text); !said) exceeded += "; " + said.error().message;
+      if (const Status said = print(text); !said && !said.error().message.empty())
+        exceeded += "; " + said.error().message;
     return failed(exceeded);
   }
   return console.finish(json, text);

@@ -1,11 +1,13 @@
 // How the tool speaks: progress, notes and warnings on stderr; one summary on stdout, as text or as
-// JSON.
+// JSON (spec/json).
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "apps/lambent/piped_files.h"
 #include "apps/lambent/progress_bar.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
@@ -32,12 +34,14 @@ struct ConsoleOptions {
 
 void addCommonOptions(CLI::App& app, ConsoleOptions& options);
 
-/// "error: …" on stderr, with the command that teaches.
-void complain(std::string_view message, std::string_view helpCommand);
+/// A command that is not begun: "error: …" on stderr, with the command that teaches; as JSON on
+/// stdout as well. `verb`: "bake", or nothing. Returns the exit code.
+int refuse(const Error& error, std::string_view verb, std::string_view helpCommand, bool asJson);
 
 class Console {
  public:
-  explicit Console(const ConsoleOptions& options);
+  /// `verb`: "bake".
+  Console(const ConsoleOptions& options, std::string verb);
 
   /// To hand to a stage of the library.
   Progress progress();
@@ -61,8 +65,17 @@ class Console {
   void note(std::string code, std::string message);
   void warn(std::string code, std::string message);
 
+  /// An argument that may be "-": then it becomes a file with all of standard input. `name`: which
+  /// it is, such as "SCENE".
+  Status takeInput(std::filesystem::path& path, std::string_view name);
+  Status takeInput(std::string& path, std::string_view name);
+  /// An output that may be "-": then it becomes a file, with `extension`, that finish() sends to
+  /// standard output.
+  Status takeOutput(std::filesystem::path& path, std::string_view name, std::string_view extension);
+
   /// The verb is done: prints `text`, or under --json `summary` with status, findings and stages.
-  /// Failed if it cannot be said: see print().
+  /// Where standard output takes an output, `text` is for stderr. Failed if it cannot be said: see
+  /// print().
   Status finish(Json summary, std::string_view text);
   /// What the JSON summary is to hold even if the verb fails after all.
   void keep(Json summary) { kept_ = std::move(summary); }
@@ -75,6 +88,8 @@ class Console {
   Json findingsAsJson() const;
 
   ConsoleOptions options_;
+  std::string verb_;
+  PipedFiles piped_;
   ProgressBar bar_;
   Findings findings_;
   Json kept_ = Json::object();

@@ -7,8 +7,10 @@ namespace lambent::tool {
 const std::string_view kOverview =
     R"(Lambent bakes how light moves over an asset once, and then relights it under any sky.)";
 
-const std::string_view kOverviewFooter = R"(In the sequence in which a person uses them:
-  lambent info model.glb                               what is in the file?
+const std::string_view kOverviewShort = "bake how light moves over an asset, and relight it";
+
+const std::string_view kOverviewExamples =
+    R"(  lambent info model.glb                               what is in the file?
   lambent bake model.glb -o baked.glb                  simulate once how light moves over it
   lambent render baked.glb --light sky.exr -o a.png    relight it, as often as you like
   lambent render baked.glb --light disc:30,45,20 -o b.png
@@ -19,10 +21,19 @@ const std::string_view kOverviewFooter = R"(In the sequence in which a person us
   lambent rtt weave -o weave.rtt                       a patch of texture with depth
   lambent synthesize model.glb --rtt weave.rtt -o woven.glb   spread over a surface
   lambent sky --date 2026-06-21 --time 05:40 --utc-offset 2 --lat 46.2 --lon 6.1 -o sky.exr
-
-'lambent VERB --help' explains a verb with examples.
-Exit codes: 0 done, 1 the work failed, 2 wrong usage, 3 bad input.
 )";
+
+const std::string_view kExitCodesInWords = "0 done, 1 the work failed, 2 wrong usage, 3 bad input.";
+
+std::string overviewFooter() {
+  return "In the sequence in which a person uses them:\n" + std::string(kOverviewExamples) +
+         "\n'lambent VERB --help' explains a verb with examples.\nExit codes: " +
+         std::string(kExitCodesInWords) + "\n";
+}
+
+std::string helpOf(const CLI::App& app) {
+  return app.get_formatter()->make_help(&app, "lambent", CLI::AppFormatMode::Normal);
+}
 
 HelpFormatter::HelpFormatter() {
   column_width(32);

@@ -7,8 +7,15 @@
 
 namespace lambent::tool {
 
-extern const std::string_view kOverview;        ///< what `lambent` alone begins with
-extern const std::string_view kOverviewFooter;  ///< and ends with
+extern const std::string_view kOverview;          ///< what `lambent` alone begins with
+extern const std::string_view kOverviewShort;     ///< the same for a list of manual pages
+extern const std::string_view kOverviewExamples;  ///< the verbs as a person uses them
+extern const std::string_view kExitCodesInWords;  ///< "0 done, …"
+
+/// What `lambent` alone ends with.
+std::string overviewFooter();
+/// What `lambent --help` or `lambent VERB --help` prints.
+std::string helpOf(const CLI::App& app);
 
 /// CLI11's help with wrapped descriptions and defaults at their end.
 class HelpFormatter : public CLI::Formatter {

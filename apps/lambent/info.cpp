@@ -33,6 +33,8 @@ constexpr std::string_view kInfoExamples = R"(Examples:
   lambent info sky.exr            size, range, layers, and what it is as a light
   lambent info cube:probe.exr     what any SOURCE of light is, as 'lambent light' reads it
   lambent info light.json --json  for a script
+  curl -L URL | lambent info -    what comes from standard input
+
 )";
 
 struct Whole {
@@ -192,8 +194,8 @@ Result<Whole> describeFile(const std::filesystem::path& path, const ReadingArgum
       path.string(), extension));
 }
 
-Status runInfo(const std::filesystem::path& path, const ReadingArguments& reading,
-               Console& console) {
+Status runInfo(std::filesystem::path path, const ReadingArguments& reading, Console& console) {
+  if (Status s = console.takeInput(path, "FILE"); !s) return s;
   const auto whole = describeFile(path, reading, console);
   if (!whole) return whole.error();
   Json json = {{"file", path.string()}, {"kind", whole->kind}};
@@ -220,8 +222,9 @@ Verb addInfo(CLI::App& root, ConsoleOptions& common) {
   CLI::App* app =
       root.add_subcommand("info", "Say what is in a scene, an asset, an image or a light");
   app->group("Verbs");
-  app->footer(std::string(kInfoExamples));
-  app->add_option("FILE", arguments->path, "The file to look into, or a SOURCE of light")
+  app->footer(std::string(kInfoExamples) + sources::sourceHelp());
+  app->add_option("FILE", arguments->path,
+                  "The file to look into, - for standard input, or a SOURCE of light (see below)")
       ->required();
   arguments->reading.addTo(*app);
   addCommonOptions(*app, common);

@@ -34,7 +34,9 @@ Examples:
   lambent light sky.exr -o turned.json --rotate-y 90 --bands 3
 )";
 
-Status runLight(const LightRequest& arguments, Console& console) {
+Status runLight(LightRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.light.source, "SOURCE"); !s) return s;
+  if (Status s = console.takeOutput(arguments.output, "-o", ".json"); !s) return s;
   NamedFiles files;
   files.writes("--output", arguments.output, {".json"});
   files.readsLight("SOURCE", arguments.light.source);
@@ -60,7 +62,8 @@ Verb addLight(CLI::App& root, ConsoleOptions& common) {
   app->group("Verbs");
   app->footer(sources::sourceHelp() + std::string(kLightExamples));
   arguments->light.addTo(*app, true);
-  app->add_option("-o,--output", arguments->output, "The coefficients to write, a .json")
+  app->add_option("-o,--output", arguments->output,
+                  "The coefficients to write, a .json; - : standard output")
       ->option_text("LIGHT.json")
       ->required();
   addNumber(*app, "--bands", arguments->bands, {1, 10},

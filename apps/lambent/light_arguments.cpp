@@ -12,8 +12,7 @@
 namespace lambent::tool {
 
 CLI::Option* LightArguments::addTo(CLI::App& app, bool positional) {
-  const std::string text =
-      "The light: an image, a LIGHT.json, uniform, disc:… or a sum (see below)";
+  const std::string text = "The light: any SOURCE (see below), or - for a file on standard input";
   CLI::Option* option = positional ? app.add_option("SOURCE", source, text)
                                    : app.add_option("--light", source, text)->option_text("SOURCE");
   option->required();

@@ -2,17 +2,17 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <exception>
 #include <new>
 #include <sstream>
 #include <string_view>
 
+#include "apps/lambent/command_line.h"
 #include "apps/lambent/console.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/interrupt.h"
+#include "apps/lambent/piped_files.h"
 #include "apps/lambent/standard_streams.h"
-#include "apps/lambent/verbs.h"
 #include "lambent/file/atomic_file.h"
 #include "lambent/work/thread_limit.h"
 
@@ -40,8 +40,15 @@ Status run(const Verb& verb, const ConsoleOptions& options, Console& console) {
 /// Help and version; the exit code.
 int say(std::string_view text) {
   const Status said = print(text);
-  if (!said) tell("error: " + said.error().message + '\n');
+  if (!said && !said.error().message.empty()) tell("error: " + said.error().message + '\n');
   return said ? kExitDone : kExitFailed;
+}
+
+/// Whether --json is on a command line, which may be one that cannot be understood.
+bool asksForJson(int argc, char** argv) {
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i)
+    if (std::string_view(argv[i]) == "--json") return true;
+  return false;
 }
 
 /// All of the tool, except for what is thrown out of it.
@@ -49,39 +56,27 @@ int runTool(int argc, char** argv) {
   secureStandardStreams();
   installInterruptHandlers();
 
-  CLI::App root{std::string(kOverview), "lambent"};
-  root.formatter(std::make_shared<HelpFormatter>());
-  root.set_version_flag("--version", "lambent " LAMBENT_VERSION, "Print the version");
-  root.require_subcommand(0, 1);
-  root.footer(std::string(kOverviewFooter));
-
-  ConsoleOptions options;
-  const std::array verbs = {
-      addBake(root, options),   addLight(root, options),      addShade(root, options),
-      addRender(root, options), addReference(root, options),  addCompare(root, options),
-      addRtt(root, options),    addSynthesize(root, options), addView(root, options),
-      addSky(root, options),    addInfo(root, options)};
+  CommandLine line;
   try {
-    root.parse(argc, argv);
+    line.root.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) {
       std::ostringstream help, nothing;
-      root.exit(e, help, nothing);
+      line.root.exit(e, help, nothing);
       return say(help.str());
     }
-    const auto named = root.get_subcommands();
-    complain(e.what(),
-             named.empty() ? "lambent --help" : "lambent " + named.front()->get_name() + " --help");
-    return kExitUsage;
+    const UsageError error = explain(line, e);
+    std::string verb;  // whose JSON it would be
+    for (const CLI::App* named : line.root.get_subcommands())
+      if (named->get_option_no_throw("--json")) verb = named->get_name();
+    return refuse(report::badUsage(error.message), verb, error.remedy, asksForJson(argc, argv));
   }
 
-  for (const Verb& verb : verbs) {
-    if (!verb.app->parsed()) continue;
-    Console console(options);
-    const Status status = run(verb, options, console);
-    return status ? kExitDone : console.fail(status.error());
-  }
-  return say(root.help());
+  const Verb* verb = line.named();
+  if (!verb) return say(helpOf(line.root));
+  Console console(line.options, verb->app->get_name());
+  const Status status = run(*verb, line.options, console);
+  return status ? kExitDone : console.fail(status.error());
 }
 
 /// To standard error, past all buffers.
@@ -114,6 +109,7 @@ int cryFor(const std::exception_ptr& thrown) {
 /// get no memory nothing can be caught any more.
 [[noreturn]] void onTerminate() {
   file::AtomicFile::discardAll();
+  PipedFiles::discardAll();
   _exit(cryFor(std::current_exception()));
 }
 

@@ -80,8 +80,17 @@ void NamedFiles::writesLater(std::string name, const fs::path& path) {
 }
 
 Status NamedFiles::check() const {
+  for (const Input& input : inputs_)
+    if (input.path == "-")
+      return badUsage(
+          fmt::format("{}: standard input is not read here: name a file (./- is one of that name)",
+                      input.name));
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     const auto& [option, path, extensions, later] = outputs_[i];
+    if (path == "-")
+      return badUsage(fmt::format(
+          "{}: standard output is not written here: name a file (./- is one of that name)",
+          option));
     if (!later &&
         std::find(extensions.begin(), extensions.end(), extensionOf(path)) == extensions.end())
       return badUsage(fmt::format("{}: the output {} must end in {}", option, path.string(),

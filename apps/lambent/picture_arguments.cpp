@@ -34,9 +34,10 @@ Result<scene::Camera> ViewArguments::choose(const scene::Scene& scene) const {
   const Result<double> number = parseNumber(
       camera, {.least = 0.0, .most = double(scene.cameras.size()) - 1.0, .whole = true});
   if (number) return scene.cameras[size_t(*number)];
-  std::string names = "auto";
-  for (const scene::Camera& each : scene.cameras) names += ", " + each.name;
-  return badUsage(fmt::format("--camera {}: there is no such camera; there are {}", camera, names));
+  std::vector<std::string> names = {"auto"};
+  for (const scene::Camera& each : scene.cameras)
+    names.push_back(each.name.empty() ? std::to_string(&each - scene.cameras.data()) : each.name);
+  return noSuch("--camera", camera, "camera", names);
 }
 
 void DevelopmentArguments::addTo(CLI::App& app) {

@@ -13,6 +13,7 @@
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/named_files.h"
+#include "apps/lambent/output_argument.h"
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/scene_arguments.h"
@@ -32,7 +33,7 @@ struct ReferenceRequest {
   SceneArguments scene;
   LightArguments light;
   StateArguments state;
-  std::filesystem::path output;
+  OutputArgument output{.extensions = {".exr", ".png", ".csv", ".ply"}};
   ViewArguments view;
   DevelopmentArguments development;
   AirArguments air;
@@ -116,11 +117,11 @@ Status traceReceivers(const ReferenceRequest& arguments, const scene::Scene& sce
     power += double(estimate.mean.square().sum());
   }
   Status status =
-      written(console.stage("write", [&] { return writeReceivers(file, arguments.output); }));
+      written(console.stage("write", [&] { return writeReceivers(file, arguments.output.path); }));
   if (!status) return status;
   const double error = power > 0.0 ? std::sqrt(variance / power) : 0.0;
   return console.finish(
-      {{"output", arguments.output.string()},
+      {{"output", arguments.output.path.string()},
        {"receivers", probes.size()},
        {"spp", arguments.options.samples},
        {"bounces", arguments.options.bounces},
@@ -128,8 +129,8 @@ Status traceReceivers(const ReferenceRequest& arguments, const scene::Scene& sce
        {"estimated_relative_rmse", error}},
       fmt::format("{}: {} receivers, {} paths each, {} bounces\n"
                   "estimated relative RMSE of its own noise: {:.3g}%\n",
-                  arguments.output.string(), formatCount(probes.size()), arguments.options.samples,
-                  arguments.options.bounces, 100.0 * error));
+                  arguments.output.path.string(), formatCount(probes.size()),
+                  arguments.options.samples, arguments.options.bounces, 100.0 * error));
 }
 
 /// What the state says where no flag does: the material's lobe, and which transport there is.
@@ -159,7 +160,7 @@ Result<Shot> shotOf(const ReferenceRequest& arguments, const std::optional<view:
       light = *projected;
     }
     scene::Camera camera;
-    if (!asksForReceivers(arguments.output)) {
+    if (!asksForReceivers(arguments.output.path)) {
       const auto chosen = arguments.view.choose(scene);
       if (!chosen) return chosen.error();
       camera = *chosen;
@@ -172,8 +173,12 @@ Result<Shot> shotOf(const ReferenceRequest& arguments, const std::optional<view:
 }
 
 Status runReference(ReferenceRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
+  if (Status s = console.takeInput(arguments.light.source, "--light"); !s) return s;
+  if (Status s = arguments.output.take(console); !s) return s;
+  const std::filesystem::path& output = arguments.output.path;
   NamedFiles files;
-  files.writes("--output", arguments.output, {".exr", ".png", ".csv", ".ply"});
+  files.writes("--output", output, arguments.output.extensions);
   files.reads("SCENE", arguments.scene.path);
   files.readsLight("--light", arguments.light.source);
   files.reads("--view", arguments.state.path);
@@ -204,7 +209,7 @@ Status runReference(ReferenceRequest arguments, Console& console) {
   const auto air =
       arguments.air.shown(*arguments.app, state ? state->air : std::optional<view::AirShown>());
   if (!air) return air.error();
-  if (asksForReceivers(arguments.output)) {
+  if (asksForReceivers(output)) {
     if (arguments.air.wanted) return badUsage("--air is of pictures: vertices have no viewer");
     return traceReceivers(arguments, *scene, *rays, shot->environment, console);
   }
@@ -226,19 +231,18 @@ Status runReference(ReferenceRequest arguments, Console& console) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
-  const bool linear = extensionOf(arguments.output) == ".exr";
+  const bool linear = extensionOf(output) == ".exr";
   const float ev = linear ? 0.0f : arguments.development.exposureFor(picture->mean);
   Status status = written(console.stage("write", [&] {
     if (linear)
-      return image::write(picture->mean, arguments.output,
+      return image::write(picture->mean, output,
                           {.halfFloat = false, .layers = {{"variance", &picture->variance}}});
-    return image::write(tone::toneMap(picture->mean, ev, arguments.development.curve),
-                        arguments.output);
+    return image::write(tone::toneMap(picture->mean, ev, arguments.development.curve), output);
   }));
   if (!status) return status;
   const double error = estimatedError(*picture);
   return console.finish(
-      {{"output", arguments.output.string()},
+      {{"output", output.string()},
        {"spp", options.samples},
        {"bounces", options.bounces},
        {"bands", arguments.bands},
@@ -250,7 +254,7 @@ Status runReference(ReferenceRequest arguments, Console& console) {
        {"picture", describe(picture->mean).json}},
       fmt::format("{}: {}, {} paths per pixel, {} bounces, {}\n"
                   "estimated relative RMSE of its own noise: {:.3g}%\n",
-                  arguments.output.string(), formatSize(arguments.view.size), options.samples,
+                  output.string(), formatSize(arguments.view.size), options.samples,
                   options.bounces, formatSeconds(seconds), 100.0 * error));
 }
 
@@ -266,11 +270,10 @@ Verb addReference(CLI::App& root, ConsoleOptions& common) {
   arguments->scene.addTo(*app);
   arguments->scene.addSidesTo(*app);
   arguments->state.addTo(*app, arguments->light.addTo(*app, false));
-  app->add_option(
-         "-o,--output", arguments->output,
-         "The picture: .exr for linear radiance with a layer of variance, or .png; or .csv or .ply "
-         "for the radiance of every vertex (what it emits included), with its variance")
-      ->option_text("OUT.exr|.png|.csv|.ply")
+  arguments->output
+      .addTo(*app, "OUT.exr|.png|.csv|.ply",
+             "The picture: .exr for linear radiance with a layer of variance, or .png; or .csv or "
+             ".ply for the radiance of every vertex (what it emits included), with its variance")
       ->required();
   addNumber(*app, "--spp", arguments->options.samples, {1, 1 << 20},
             "Paths per pixel. Four times as many: half the noise")

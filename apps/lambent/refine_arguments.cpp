@@ -84,7 +84,7 @@ void RefineArguments::addTo(CLI::App& app) {
          "option it is done where triangles are so large that shadows would be missed; 'off': "
          "never")
       ->expected(0, 1)
-      ->option_text("[ERROR]")
+      ->option_text("[ERROR|off]")
       ->group("Transfer");
   addNumber(app, "--refine-budget", budget, {0, 100e6}, "Vertices that cutting triangles may add")
       ->option_text("VERTICES")

@@ -12,6 +12,7 @@
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/named_files.h"
+#include "apps/lambent/output_argument.h"
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/showing_arguments.h"
 #include "apps/lambent/state_arguments.h"
@@ -34,7 +35,8 @@ Choices<Backend> backends() {
 }
 
 struct RenderRequest {
-  std::filesystem::path asset, output;
+  std::filesystem::path asset;
+  OutputArgument output{.extensions = {".png", ".exr"}};
   LightArguments light;
   StateArguments state;
   ViewArguments view;
@@ -106,8 +108,12 @@ Result<Shot> shotOf(const RenderRequest& arguments, const asset::Asset& asset, C
 }
 
 Status runRender(RenderRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.asset, "ASSET"); !s) return s;
+  if (Status s = console.takeInput(arguments.light.source, "--light"); !s) return s;
+  if (Status s = arguments.output.take(console); !s) return s;
+  const std::filesystem::path& output = arguments.output.path;
   NamedFiles files;
-  files.writes("--output", arguments.output, {".png", ".exr"});
+  files.writes("--output", output, arguments.output.extensions);
   files.readsAsset("ASSET", arguments.asset);
   files.readsLight("--light", arguments.light.source);
   files.reads("--view", arguments.state.path);
@@ -161,23 +167,22 @@ Status runRender(RenderRequest arguments, Console& console) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
-  const bool linear = extensionOf(arguments.output) == ".exr";
+  const bool linear = extensionOf(output) == ".exr";
   // A state's exposure is for the eye: linear radiance stays as it is, to be compared.
   const bool exposed =
       !linear || (arguments.development.exposure != "auto" && arguments.given("--exposure"));
   const float ev = exposed ? arguments.development.exposureFor(*picture) : 0.0f;
   Status status = written(console.stage("write", [&] {
     if (!linear)
-      return image::write(tone::toneMap(*picture, ev, arguments.development.curve),
-                          arguments.output);
+      return image::write(tone::toneMap(*picture, ev, arguments.development.curve), output);
     if (exposed)
       for (Rgb& pixel : picture->pixels) pixel *= std::exp2(ev);
-    return image::write(*picture, arguments.output);
+    return image::write(*picture, output);
   }));
   if (!status) return status;
   const std::string name = wordOf(arguments.backend, backends());
   return console.finish(
-      {{"output", arguments.output.string()},
+      {{"output", output.string()},
        {"backend", name},
        {"exposure", ev},
        {"sun_shadow", !options.sun ? nlohmann::json() : nlohmann::json("sharp")},
@@ -185,7 +190,7 @@ Status runRender(RenderRequest arguments, Console& console) {
        {"shafts", options.air && options.air->shafts},
        {"seconds", seconds},
        {"picture", describe(*picture).json}},
-      fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", arguments.output.string(),
+      fmt::format("{}: {}, {} backend, exposure {:+.2f} EV, {}\n", output.string(),
                   formatSize(arguments.view.size), name, ev, formatSeconds(seconds)));
 }
 
@@ -198,13 +203,12 @@ Verb addRender(CLI::App& root, ConsoleOptions& common) {
   app->group("Verbs");
   app->footer(sources::sourceHelp() + std::string(kRenderExamples));
   app->add_option("ASSET", arguments->asset,
-                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
+                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote; - : standard input")
       ->required();
   CLI::Option* light = arguments->light.addTo(*app, false);
   arguments->state.addTo(*app, light);
-  app->add_option("-o,--output", arguments->output,
-                  "The picture: .png for the eye, .exr for linear radiance")
-      ->option_text("OUT.png|OUT.exr")
+  arguments->output
+      .addTo(*app, "OUT.png|OUT.exr", "The picture: .png for the eye, .exr for linear radiance")
       ->required();
   arguments->view.addTo(*app, 16384);
   addChoice(*app, "--backend", arguments->backend, backends(),

@@ -136,6 +136,8 @@ Status checkAgainstPictures(const std::filesystem::path& patch, NamedFiles& file
 }
 
 Status runRtt(RttRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.patch, "PATCH"); !s) return s;
+  if (Status s = console.takeOutput(arguments.output, "-o", ".rtt"); !s) return s;
   NamedFiles files;
   files.writes("--output", arguments.output, {".rtt"});
   files.writes("--preview", arguments.previewPath, {".png", ".exr"});
@@ -260,7 +262,8 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
   meso::RttOptions& options = arguments->rtt;
   app->add_option("PATCH", arguments->patch, "A pattern's name, a file, or a folder (see below)")
       ->required();
-  app->add_option("-o,--output", arguments->output, "The RTT to write, an .rtt")
+  app->add_option("-o,--output", arguments->output,
+                  "The RTT to write, an .rtt; - : standard output")
       ->option_text("PATCH.rtt")
       ->required();
 

@@ -51,7 +51,8 @@ void addGround(scene::Scene& scene) {
 }  // namespace
 
 void SceneArguments::addTo(CLI::App& app) {
-  app.add_option("SCENE", path, "The scene: .glb, .gltf, .obj or .ply")->required();
+  app.add_option("SCENE", path, "The scene: .glb, .gltf, .obj or .ply; - : standard input")
+      ->required();
   addChoice(app, "--material", material,
             {{"diffuse", MaterialKind::Diffuse},
              {"glossy", MaterialKind::Glossy},

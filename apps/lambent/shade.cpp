@@ -12,6 +12,7 @@
 #include "apps/lambent/help.h"
 #include "apps/lambent/light_arguments.h"
 #include "apps/lambent/named_files.h"
+#include "apps/lambent/output_argument.h"
 #include "apps/lambent/receiver_file.h"
 #include "apps/lambent/showing_arguments.h"
 #include "apps/lambent/verbs.h"
@@ -23,7 +24,8 @@ namespace lambent::tool {
 namespace {
 
 struct ShadeRequest {
-  std::filesystem::path asset, output;
+  std::filesystem::path asset;
+  OutputArgument output{.extensions = {".csv", ".ply"}};
   LightArguments light;
   std::optional<Vec3> eye;
   ShowingArguments showing;
@@ -40,9 +42,13 @@ Examples:
       A surface with meso-structure as if its shape hid no light.
 )";
 
-Status runShade(const ShadeRequest& arguments, Console& console) {
+Status runShade(ShadeRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.asset, "ASSET"); !s) return s;
+  if (Status s = console.takeInput(arguments.light.source, "--light"); !s) return s;
+  if (Status s = arguments.output.take(console); !s) return s;
+  const std::filesystem::path& output = arguments.output.path;
   NamedFiles files;
-  files.writes("--output", arguments.output, {".ply", ".csv"});
+  files.writes("--output", output, arguments.output.extensions);
   files.readsAsset("ASSET", arguments.asset);
   files.readsLight("--light", arguments.light.source);
   if (Status distinct = files.check(); !distinct) return distinct;
@@ -70,8 +76,7 @@ Status runShade(const ShadeRequest& arguments, Console& console) {
     }
     return all;
   });
-  Status status =
-      written(console.stage("write", [&] { return writeReceivers(file, arguments.output); }));
+  Status status = written(console.stage("write", [&] { return writeReceivers(file, output); }));
   if (!status) return status;
 
   const std::vector<ShadedReceiver>& receivers = file.receivers;
@@ -79,12 +84,12 @@ Status runShade(const ShadeRequest& arguments, Console& console) {
   for (const ShadedReceiver& receiver : receivers) sum += receiver.radiance.cast<double>();
   const Rgb mean =
       receivers.empty() ? Rgb(Rgb::Zero()) : Rgb((sum / double(receivers.size())).cast<float>());
-  return console.finish({{"output", arguments.output.string()},
-                         {"receivers", receivers.size()},
-                         {"mean_radiance", asJson(mean)}},
-                        fmt::format("{}: {} receivers, mean exit radiance {:.5g} {:.5g} {:.5g}\n",
-                                    arguments.output.string(), formatCount(receivers.size()),
-                                    mean[0], mean[1], mean[2]));
+  return console.finish(
+      {{"output", output.string()},
+       {"receivers", receivers.size()},
+       {"mean_radiance", asJson(mean)}},
+      fmt::format("{}: {} receivers, mean exit radiance {:.5g} {:.5g} {:.5g}\n", output.string(),
+                  formatCount(receivers.size()), mean[0], mean[1], mean[2]));
 }
 
 }  // namespace
@@ -96,12 +101,12 @@ Verb addShade(CLI::App& root, ConsoleOptions& common) {
   app->group("Verbs");
   app->footer(sources::sourceHelp() + std::string(kShadeExamples));
   app->add_option("ASSET", arguments->asset,
-                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote")
+                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote; - : standard input")
       ->required();
   arguments->light.addTo(*app, false);
-  app->add_option("-o,--output", arguments->output,
-                  "Columns x,y,z,nx,ny,nz,r,g,b in world space, .ply (binary) or .csv")
-      ->option_text("OUT.ply|OUT.csv")
+  arguments->output
+      .addTo(*app, "OUT.ply|OUT.csv",
+             "Columns x,y,z,nx,ny,nz,r,g,b in world space, .ply (binary) or .csv")
       ->required();
   addParsed(*app, "--eye", arguments->eye, parsePoint,
             "Where the viewer stands. Without it every receiver is seen along its normal")

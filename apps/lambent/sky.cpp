@@ -11,6 +11,7 @@
 #include "apps/lambent/arguments.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/named_files.h"
+#include "apps/lambent/output_argument.h"
 #include "apps/lambent/picture_arguments.h"
 #include "apps/lambent/sky_arguments.h"
 #include "apps/lambent/sky_haze.h"
@@ -37,12 +38,12 @@ struct SkyVerb {
   AtArguments at;
   HazeArguments haze;
   DevelopmentArguments development;
-  fs::path output;
+  OutputArgument output{.extensions = {".exr", ".png", ".hdr", ".csv"}};
   const CLI::App* app = nullptr;
 
   bool given(const char* option) const { return app->count(option) > 0; }
-  std::string extension() const { return extensionOf(output); }
-  bool drawsPicture() const { return !output.empty() && extension() != ".csv"; }
+  std::string extension() const { return extensionOf(output.path); }
+  bool drawsPicture() const { return !output.path.empty() && extension() != ".csv"; }
 };
 
 constexpr std::string_view kSkyExamples = R"(
@@ -92,8 +93,9 @@ Status checkUse(const SkyVerb& verb) {
   if (verb.given("--wavelengths") && !verb.at.given() && !spectral)
     return badUsage("--wavelengths are those of --at, --at-file or --quantity spectral: give one");
   if (verb.extension() == ".csv" && !verb.at.given())
-    return badUsage("-o " + verb.output.string() + ": there are no rows without --at or --at-file");
-  if (verb.sequence.span && verb.output.empty() && !verb.at.given() && !verb.given("--json"))
+    return badUsage("-o " + verb.output.path.string() +
+                    ": there are no rows without --at or --at-file");
+  if (verb.sequence.span && verb.output.path.empty() && !verb.at.given() && !verb.given("--json"))
     return badUsage("--sequence makes pictures or rows: give -o OUT.png or --at, or --json");
   if (!verb.drawsPicture()) return Status::ok();
   const bool colour = verb.map.quantity == sky::Quantity::Radiance;
@@ -109,11 +111,11 @@ Status checkUse(const SkyVerb& verb) {
 NamedFiles namedFiles(const SkyVerb& verb, std::size_t frames) {
   NamedFiles files;
   const bool numbered = verb.sequence.span && verb.drawsPicture();
-  if (!numbered) files.writes("--output", verb.output, {".exr", ".hdr", ".png", ".csv"});
+  if (!numbered) files.writes("--output", verb.output.path, verb.output.extensions);
   if (numbered) {
-    files.writes("--output", framePath(verb.output, 1, frames), {".exr", ".hdr", ".png"});
+    files.writes("--output", framePath(verb.output.path, 1, frames), {".exr", ".hdr", ".png"});
     for (std::size_t i = 2; i <= frames; ++i)
-      files.writesLater("--output", framePath(verb.output, i, frames));
+      files.writesLater("--output", framePath(verb.output.path, i, frames));
   }
   files.reads("--atmosphere", verb.sky.file());
   files.reads("--at-file", verb.at.file);
@@ -274,22 +276,22 @@ Status runHaze(const SkyVerb& verb, Console& console) {
     if (verb.extension() == ".png") {
       const float ev = verb.development.exposureFor(*picture);
       return written(image::write(tone::toneMap(std::move(*picture), ev, verb.development.curve),
-                                  verb.output));
+                                  verb.output.path));
     }
     if (numeric)
       for (Rgb& pixel : picture->pixels) pixel *= std::exp2(verb.development.exposureFor({}));
-    return written(image::write(*picture, verb.output));
+    return written(image::write(*picture, verb.output.path));
   });
   if (!done) return done.error();
-  return console.finish({{"request", verb.sky.inWords()}, {"output", verb.output.string()}},
-                        fmt::format("{}: {} through the air\n", verb.output.string(), size));
+  return console.finish({{"request", verb.sky.inWords()}, {"output", verb.output.path.string()}},
+                        fmt::format("{}: {} through the air\n", verb.output.path.string(), size));
 }
 
 /// The summary, or the rows where they are the result.
 std::string textFor(const SkyVerb& verb, const Plan& plan, const std::vector<SkyMoment>& moments) {
   if (verb.at.given() && verb.extension() != ".csv") return csvOf(plan.table, moments);
   if (verb.extension() == ".csv")
-    return fmt::format("{}: {} rows\n", verb.output.string(),
+    return fmt::format("{}: {} rows\n", verb.output.path.string(),
                        plan.directions.size() * moments.size());
   if (!verb.drawsPicture()) return textOf(plan.table, moments.front());
   const std::string what =
@@ -303,6 +305,11 @@ std::string textFor(const SkyVerb& verb, const Plan& plan, const std::vector<Sky
 }
 
 Status runSky(SkyVerb& verb, Console& console) {
+  if (verb.output.path == "-" && verb.sequence.span && verb.output.format() != ".csv")
+    return badUsage(
+        "-o - is one picture, and --sequence makes many: name OUT.png, or ask for "
+        "--format csv");
+  if (Status taken = verb.output.take(console); !taken) return taken;
   if (Status useful = checkUse(verb); !useful) return useful;
   const auto moments = verb.sequence.moments(verb.sky.request);
   if (!moments) return moments.error();
@@ -319,7 +326,8 @@ Status runSky(SkyVerb& verb, Console& console) {
   for (std::size_t i = 0; i < plan->frames; ++i) {
     fs::path path;
     if (verb.drawsPicture())
-      path = verb.sequence.span ? framePath(verb.output, i + 1, moments->size()) : verb.output;
+      path = verb.sequence.span ? framePath(verb.output.path, i + 1, moments->size())
+                                : verb.output.path;
     auto moment = runMoment(verb, *plan, maker, suns->resolved[i], path, console);
     if (!moment) return moment.error();
     moment->time = suns->times[i];
@@ -327,12 +335,13 @@ Status runSky(SkyVerb& verb, Console& console) {
     made.push_back(std::move(*moment));
   }
   if (verb.extension() == ".csv") {
-    const Status status = written(console.stage(
-        "write", [&] { return file::writeAtomically(verb.output, csvOf(plan->table, made)); }));
+    const Status status = written(console.stage("write", [&] {
+      return file::writeAtomically(verb.output.path, csvOf(plan->table, made));
+    }));
     if (!status) return status;
   }
   Json summary = {{"request", verb.sky.inWords()}};
-  if (!verb.output.empty()) summary["output"] = verb.output.string();
+  if (!verb.output.path.empty()) summary["output"] = verb.output.path.string();
   if (verb.sequence.span)
     summary["frames"] = std::move(json);
   else
@@ -351,11 +360,10 @@ Verb addSky(CLI::App& root, ConsoleOptions& common) {
   app->footer(std::string(kSkyExamples));
   verb->sky.addTo(*app);
   verb->sequence.addTo(*app);
-  app->add_option(
-         "-o,--output", verb->output,
-         "The picture: .exr or .hdr in true units, .png for the eye; or rows of --at, .csv")
-      ->option_text("OUT.exr|OUT.png|OUT.csv")
-      ->group("Picture");
+  verb->output.addTo(
+      *app, "OUT.exr|OUT.png|OUT.csv",
+      "The picture: .exr or .hdr in true units, .png for the eye; or rows of --at, .csv",
+      "Picture");
   verb->map.addTo(*app);
   verb->at.addTo(*app);
   verb->haze.addTo(*app);

@@ -32,6 +32,7 @@ Status print(std::string_view text) {
   if (std::fflush(stdout) == 0 && taken) return Status::ok();
   const int reason = errno;
   std::clearerr(stdout);
+  if (reason == EPIPE) return report::failed("");
   return report::failed(std::string("the results cannot be written to standard output: ") +
                         (reason ? std::strerror(reason) : "it takes no more") +
                         ". Files that were made are kept");

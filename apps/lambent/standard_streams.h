@@ -16,6 +16,7 @@ void secureStandardStreams();
 void tell(std::string_view text);
 
 /// To standard output, at once. Failed if it does not arrive: the results are what was asked for.
+/// Without a message where a pipe has been closed by who read it ('| head -1'): nobody misses it.
 Status print(std::string_view text);
 
 }  // namespace lambent::tool

@@ -58,14 +58,9 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const SynthesizeRequest& argumen
   }
   for (const std::string& wanted : arguments.meshes) {
     const std::size_t before = chosen.size();
-    std::string names;
-    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
-      const std::string& name = scene.meshes[m].name;
-      if (name == wanted || std::to_string(m) == wanted) chosen.push_back(m);
-      names += (names.empty() ? "" : ", ") + (name.empty() ? std::to_string(m) : name);
-    }
-    if (chosen.size() == before)
-      return badUsage(fmt::format("--mesh {}: there is no such mesh; there are {}", wanted, names));
+    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m)
+      if (scene.meshes[m].name == wanted || std::to_string(m) == wanted) chosen.push_back(m);
+    if (chosen.size() == before) return noSuch("--mesh", wanted, "mesh", meshNames(scene));
   }
   if (chosen.empty())
     return badInput(arguments.scene.path.string() +
@@ -126,6 +121,8 @@ std::size_t makeWhole(scene::Scene& scene) {
 }
 
 Status run(SynthesizeRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
+  if (Status s = console.takeOutput(arguments.output, "-o", ".glb"); !s) return s;
   NamedFiles files;
   files.writes("--output", arguments.output, {".glb"});
   files.writes("--atlas-picture", arguments.atlasPicture, {".png"});
@@ -218,7 +215,8 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
   app->add_option("--rtt", arguments->rtt, "The patch: what 'lambent rtt' wrote")
       ->option_text("PATCH.rtt")
       ->required();
-  app->add_option("-o,--output", arguments->output, "The asset to write, a .glb")
+  app->add_option("-o,--output", arguments->output,
+                  "The asset to write, a .glb; - : standard output")
       ->option_text("ASSET.glb")
       ->required();
   addNumber(*app, "--patch-width", options.patchWidth, {0.0, 1e6},

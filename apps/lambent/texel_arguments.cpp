@@ -116,12 +116,9 @@ Result<ChosenTexels> TexelArguments::resolve(scene::Scene& scene) const {
         chosen.toLayOut.push_back(m);
     }
     if (found > 0) continue;
-    std::string names;
-    for (const scene::Mesh& mesh : scene.meshes)
-      names += (names.empty() ? "" : ", ") + (mesh.name.empty() ? "(no name)" : mesh.name);
+    if (!every) return noSuch("--texels", asked->mesh, "mesh", meshNames(scene));
     return badUsage(
-        !every ? fmt::format("--texels {}: there is no such mesh; there are {}", text, names)
-        : asked->size
+        asked->size
             ? "--texels: no mesh of this scene has UVs: 'auto' lays them out; or bake vertices"
             : "--texels auto: all meshes of this scene are mirrors");
   }

@@ -29,5 +29,8 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common);
 Verb addView(CLI::App& root, ConsoleOptions& common);
 Verb addSky(CLI::App& root, ConsoleOptions& common);
 Verb addInfo(CLI::App& root, ConsoleOptions& common);
+/// After all others, whose names it offers.
+Verb addHelp(CLI::App& root, ConsoleOptions& common);
+Verb addCompletion(CLI::App& root, ConsoleOptions& common);
 
 }  // namespace lambent::tool

@@ -96,7 +96,8 @@ Result<std::unique_ptr<viewer::Surroundings>> surroundingsOf(const ViewRequest& 
       new viewer::CapturedLight(std::move(loaded->scene), arguments.lightSamples));
 }
 
-Status runView(const ViewRequest& arguments, Console& console) {
+Status runView(ViewRequest arguments, Console& console) {
+  if (Status s = console.takeInput(arguments.asset, "ASSET"); !s) return s;
   if (arguments.web)
     return serveViewer(arguments.asset, arguments.environments, arguments.reading,
                        {.port = arguments.port, .openBrowser = !arguments.noBrowser}, console);
@@ -109,8 +110,12 @@ Status runView(const ViewRequest& arguments, Console& console) {
   options.window.visible = !arguments.hidden;
   options.panel = !arguments.noPanel && arguments.screenshot.empty();
   Status told = Status::ok();
-  options.print = [&told](const std::string& line) {
-    if (Status status = print(line + '\n'); !status) told = status;
+  Json lines = Json::array();
+  options.print = [&](const std::string& line) {
+    if (console.options().json)
+      lines.push_back(line);
+    else if (Status status = print(line + '\n'); !status)
+      told = status;
   };
   NamedFiles files;
   files.writes("--screenshot", arguments.screenshot, {".png"});
@@ -142,7 +147,7 @@ Status runView(const ViewRequest& arguments, Console& console) {
     return console.finish(
         {{"output", arguments.screenshot.string()}},
         fmt::format("{}: {}\n", arguments.screenshot.string(), formatSize(arguments.size)));
-  return Status::ok();
+  return console.finish({{"lines", std::move(lines)}}, "");
 }
 
 }  // namespace

@@ -269,7 +269,7 @@ Status serveViewer(const fs::path& asset, std::span<const std::string> environme
   while (!server.is_running() && !over) std::this_thread::yield();
   const std::string url = fmt::format("http://{}:{}/", kHost, bound);
   // A server that nobody can find is of no use.
-  Status ended = print(url + '\n');
+  Status ended = console.finish({{"url", url}}, url + '\n');
   if (ended) {
     console.note("viewer-served", url + " shows the asset; Ctrl-C ends it");
     if (options.openBrowser) openInBrowser(url);

@@ -21,14 +21,15 @@ constexpr SourceKind kKinds[] = {
     {"uniform", "uniform[:RADIANCE]", "the same from everywhere", Takes::Numbers, uniformLight},
     {"disc", "disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]",
      "degrees; azimuth from +x towards +z, elevation from the horizon", Takes::Numbers, discLight},
-    {"directional", "directional:AZIMUTH,ELEVATION[,IRRADIANCE]", "", Takes::Numbers,
-     directionalLight},
+    {"directional", "directional:AZIMUTH,ELEVATION[,IRRADIANCE]",
+     "the same as a point infinitely far away", Takes::Numbers, directionalLight},
     {"sky", "sky:KEY=VALUE[,…]", "a sky with its Sun and ground, by the keys of 'lambent sky'",
      Takes::Keys, skyLight},
-    {"latlong", "latlong:FILE", "", Takes::File, latLongMap},
-    {"cube", "cube:FILE", "", Takes::File, cubeMap},
-    {"angular", "angular:FILE", "", Takes::File, angularMap},
-    {"ball", "ball:FILE", "", Takes::File, mirrorBall},
+    {"latlong", "latlong:FILE", "an environment image of any size, latitude-longitude", Takes::File,
+     latLongMap},
+    {"cube", "cube:FILE", "its six faces in a cross, a row or a column", Takes::File, cubeMap},
+    {"angular", "angular:FILE", "a light probe: the angular map", Takes::File, angularMap},
+    {"ball", "ball:FILE", "a picture of a mirrored ball, cut to its rim", Takes::File, mirrorBall},
 };
 
 /// How files without a word are written; lightFromFile knows them.
@@ -36,7 +37,8 @@ struct Form {
   std::string_view syntax, help;
 };
 constexpr Form kFiles[] = {
-    {"FILE.exr FILE.hdr FILE.png", "an environment image, latitude-longitude"},
+    {"FILE.exr FILE.hdr FILE.png",
+     "an environment image, latitude-longitude or as its header says"},
     {"FILE.exr:LAYER", "a layer or part of it that is not its picture"},
     {"LIGHT.json", "coefficients written by 'lambent light'"},
 };
@@ -54,7 +56,7 @@ std::string formsInWords() {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i > 0) text += i + 1 < all.size() ? ", " : " or ";
     text += all[i].syntax;
-    if (!all[i].help.empty()) text += fmt::format(" ({})", all[i].help);
+    text += fmt::format(" ({})", all[i].help);
   }
   return text + ", and several joined by '+' add up";
 }
@@ -171,13 +173,14 @@ std::string sourceHelp() {
   constexpr std::size_t kColumn = 31;  // where what a form is begins
   std::string text = "SOURCE of light:\n";
   for (const Form& form : forms()) {
-    if (form.help.empty()) continue;
     const bool fits = 2 + form.syntax.size() < kColumn;
     text += fits ? fmt::format("  {:<{}}{}\n", form.syntax, kColumn - 2, form.help)
                  : fmt::format("  {}\n{:{}}{}\n", form.syntax, "", kColumn, form.help);
   }
   return text +
-         "  A+B+…                        the sum of several. RADIANCE is one number or R/G/B.\n";
+         "  A+B+…                        the sum of several. RADIANCE and IRRADIANCE are one "
+         "number or\n"
+         "                               R/G/B.\n";
 }
 
 }  // namespace lambent::sources

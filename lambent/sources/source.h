@@ -62,7 +62,7 @@ struct SourceKind {
   enum class Takes { Numbers, File, Keys };
   std::string_view word;    ///< what stands before the colon
   std::string_view syntax;  ///< "disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]"
-  std::string_view help;    ///< a line for a person; empty: left out of sourceHelp()
+  std::string_view help;    ///< a line for a person
   Takes takes;              ///< of what the rest is
   Result<WithFindings<light::Environment>> (*make)(const Term&, const SourceOptions&);
 };

@@ -339,14 +339,21 @@ TEST_F(Source, TheTableKnowsEveryWord) {
 
 TEST_F(Source, HelpHasALineForEveryForm) {
   EXPECT_EQ(sourceHelp(), R"(SOURCE of light:
-  FILE.exr FILE.hdr FILE.png   an environment image, latitude-longitude
+  FILE.exr FILE.hdr FILE.png   an environment image, latitude-longitude or as its header says
   FILE.exr:LAYER               a layer or part of it that is not its picture
   LIGHT.json                   coefficients written by 'lambent light'
   uniform[:RADIANCE]           the same from everywhere
   disc:AZIMUTH,ELEVATION,ANGULAR_DIAMETER[,RADIANCE]
                                degrees; azimuth from +x towards +z, elevation from the horizon
+  directional:AZIMUTH,ELEVATION[,IRRADIANCE]
+                               the same as a point infinitely far away
   sky:KEY=VALUE[,…]            a sky with its Sun and ground, by the keys of 'lambent sky'
-  A+B+…                        the sum of several. RADIANCE is one number or R/G/B.
+  latlong:FILE                 an environment image of any size, latitude-longitude
+  cube:FILE                    its six faces in a cross, a row or a column
+  angular:FILE                 a light probe: the angular map
+  ball:FILE                    a picture of a mirrored ball, cut to its rim
+  A+B+…                        the sum of several. RADIANCE and IRRADIANCE are one number or
+                               R/G/B.
 )");
 }
 

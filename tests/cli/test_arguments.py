@@ -83,7 +83,7 @@ class Numbers(ToolTest):
     ]
 
     # What stands for the value of an option that takes no number, in the help.
-    WORDS = {"KIND", "CURVE", "AXIS", "NAME", "WINDOW", "SOURCE", "FILE", "SCENE|demo", "on|off",
+    WORDS = {"KIND", "CURVE", "FORMAT", "AXIS", "NAME", "WINDOW", "SOURCE", "FILE", "SCENE|demo", "on|off",
              "sharp|soft", "ray|axis", "METRIC=VALUE"}
 
     def refused_number(self, command, option, text, *more):

@@ -7,7 +7,8 @@ import subprocess
 
 from harness import DONE, TOOL, USAGE, ToolTest, ball_obj
 
-VERBS = ["bake", "light", "shade", "render", "reference", "compare", "sky", "info"]
+VERBS = ["bake", "light", "shade", "render", "reference", "compare", "rtt", "synthesize", "sky",
+         "info"]
 
 
 class Usage(ToolTest):
@@ -91,7 +92,7 @@ class Usage(ToolTest):
         result = self.run_tool("info", "nothing.glb", "--json", code=3)
         summary = json.loads(result.stdout)
         self.assertEqual((summary["status"], summary["exit_code"]), ("failed", 3))
-        self.assertIn("nothing.glb", summary["error"])
+        self.assertIn("nothing.glb", summary["error"]["message"])
 
     def test_quiet_says_nothing_and_a_pipe_gets_no_bar(self):
         self.write("ball.obj", ball_obj())

@@ -14,6 +14,13 @@ tool = prefix / "bin" / "lambent"
 version = subprocess.run([tool, "--version"], check=True, capture_output=True, text=True).stdout
 assert version.startswith("lambent "), version
 
+share = prefix / "share"
+for wanted in ("man/man1/lambent.1", "man/man1/lambent-bake.1", "man/man1/lambent-info.1",
+               "bash-completion/completions/lambent", "zsh/site-functions/_lambent",
+               "fish/vendor_completions.d/lambent.fish", "lambent/json/common.schema.json",
+               "lambent/json/bake.schema.json"):
+    assert (share / wanted).stat().st_size > 500, f"{wanted} was not installed"
+
 config = next(prefix.rglob("lambentConfig.cmake"))
 for file in config.parent.glob("*.cmake"):
     text = file.read_text()
