@@ -15,6 +15,9 @@ const sample = readFileSync(
   new URL("../../../spec/samples/unoccluded-square.glb", import.meta.url),
 );
 
+const kPacked =
+  /^((README|CHANGELOG)\.md|LICENSE|package\.json|data\/\w+\.bin|dist\/[\w/-]+\.(js(\.map)?|d\.ts))$/;
+
 describe("the package", () => {
   it("holds what it should, and nothing else", () => {
     const [{ files }] = JSON.parse(
@@ -27,7 +30,7 @@ describe("the package", () => {
     for (const path of ["README.md", "LICENSE", "package.json", "dist/index.js", "dist/index.d.ts"])
       assert.ok(paths.includes(path), `${path} is missing`);
     for (const path of paths)
-      assert.match(path, /^(README\.md|LICENSE|package\.json|data\/(air|sky)\.bin|dist\/[\w/-]+\.(js|d\.ts))$/, path);
+      assert.match(path, kPacked, path);
     for (const path of paths.filter((p) => p.endsWith(".js")))
       assert.ok(paths.includes(path.replace(/\.js$/, ".d.ts")), `${path} has no types`);
   });
@@ -37,7 +40,10 @@ describe("the package", () => {
     const optional = Object.keys(manifest.peerDependenciesMeta);
     assert.deepEqual(peers.filter((name) => !optional.includes(name)), ["three"]);
     assert.equal(manifest.dependencies, undefined);
-    const kFolders = { "gltf-transform": ["@gltf-transform/core"] };
+    const kFolders = {
+      "gltf-transform": ["@gltf-transform/core"],
+      react: ["react", "@react-three/fiber", "three/addons/loaders/GLTFLoader.js"],
+    };
     const found = new Set();
     for (const file of execFileSync("find", ["dist", "-name", "*.js"], {
       cwd: root,

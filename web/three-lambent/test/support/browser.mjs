@@ -33,7 +33,12 @@ export async function bundle(source) {
     format: "esm",
     write: false,
     logLevel: "silent",
-    alias: { "three-lambent": fileURLToPath(new URL("../../dist/index.js", import.meta.url)) },
+    jsx: "automatic",
+    define: { "process.env.NODE_ENV": '"development"' }, // React's strict mode
+    alias: {
+      "three-lambent/react": fileURLToPath(new URL("../../dist/react/index.js", import.meta.url)),
+      "three-lambent": fileURLToPath(new URL("../../dist/index.js", import.meta.url)),
+    },
   });
   return result.outputFiles[0].text;
 }
