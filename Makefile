@@ -17,7 +17,7 @@ TSAN_TESTS ?= .
 $(shell mkdir -p build)
 
 .PHONY: all help setup setup-tests inputs configure build product everything test demo figures screenshots bench \
-        install asan tsan clang format check-format check clean
+        docs install asan tsan clang format check-format check clean
 
 all: product
 
@@ -28,6 +28,7 @@ help:
 	@echo 'make bench               measure; CSV files under bench/results/'
 	@echo 'make figures             the pictures of docs/reproduction.md (FIGURES="figure3 table1": only those)'
 	@echo 'make screenshots         the viewers as they look, into docs/images'
+	@echo 'make docs                the reference of library and npm package: build/docs/index.html'
 	@echo 'make install PREFIX=DIR  DIR/bin/lambent, the library and its CMake package'
 	@echo 'make asan | tsan         tests under sanitizers (TSAN_TESTS=Threads: only those)'
 	@echo 'make clang               the library and the tool by clang, file by file, where a warning is an error'
@@ -74,6 +75,9 @@ screenshots: setup-tests everything inputs
 bench: setup-tests everything
 	@tools/fetch-inputs.sh all
 	@bench/run.sh $(BUILD)
+
+docs: setup-tests
+	@tools/make-docs.sh build/docs
 
 install: product
 	@cmake --install $(BUILD) --prefix '$(PREFIX)' > $(BUILD)-install.log

@@ -16,7 +16,7 @@ if (!name) {
   process.exit(2);
 }
 
-const kMade = new Set(["node_modules", "dist", "generated"]);
+const kMade = new Set(["node_modules", "dist", "generated", "release"]);
 const made = (path) => kMade.has(basename(path));
 const folder = join(to, name);
 
@@ -26,7 +26,7 @@ for (const shared of kShared) {
   rmSync(join(to, shared), { recursive: true, force: true });
   cpSync(join(from, shared), join(to, shared), { recursive: true });
 }
-for (const part of ["src", "test", "scripts", "data"])
+for (const part of ["src", "test", "scripts", "data", "examples"])
   rmSync(join(folder, part), { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 cpSync(join(from, name), folder, { recursive: true, filter: (path) => !made(path) });

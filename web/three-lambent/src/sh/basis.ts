@@ -28,7 +28,7 @@ export function bandsOf(count: number): number {
  * All basis functions in one direction.
  *
  * @param bands 1 … 10
- * @param x, y, z a unit vector
+ * @param x of a unit direction, as y and z
  * @param out bands² numbers are written
  */
 export function evaluateHarmonics<T extends Float64Array | Float32Array | number[] = Float64Array>(

@@ -38,7 +38,10 @@ export async function bundle(source, three = "three") {
     write: false,
     logLevel: "silent",
     absWorkingDir: fileURLToPath(new URL("../..", import.meta.url)),
+    jsx: "automatic",
+    define: { "process.env.NODE_ENV": '"development"' }, // React's strict mode
     alias: {
+      "three-lambent/react": fileURLToPath(new URL("../../dist/react/index.js", import.meta.url)),
       "three-lambent": fileURLToPath(new URL("../../dist/index.js", import.meta.url)),
       ...(three !== "three" && { three }),
     },
