@@ -67,7 +67,13 @@ describe("assets as objects of three's", { skip: noTool }, () => {
         const found = await run(async (file) => {
           const { THREE, lambent, renderer, load, pixels, apart } = window;
           const camera = window.makeCamera(3, 9);
-          const around = { texture: null, uniform: [0.3, 0.4, 0.6] };
+          const disc = { direction: new THREE.Vector3(1, 1.5, 0.4), diameter: 0.01 };
+          const sun = { ...disc, radiance: [30000, 25000, 20000] };
+          const light = (asset) => {
+            asset.setLight(window.makeLight().addDisc(sun));
+            asset.setSun(sun);
+            asset.setEnvironment({ texture: null, uniform: [0.3, 0.4, 0.6] });
+          };
           const turns = [0, 1.9, -0.8, 2.6];
           const places = [-1.7, 1.7, -1.7, 1.7];
           const put = (root, i) => {
@@ -82,16 +88,14 @@ describe("assets as objects of three's", { skip: noTool }, () => {
             const { scene, userData } = await load(file);
             apartOnes.add(put(scene, i));
             assets.push(userData.lambent);
-            userData.lambent.setLight(window.makeLight());
-            userData.lambent.setEnvironment(around);
+            light(userData.lambent);
           }
           // One, two clones of it, made before the first update, and an instance.
           const gltf = await load(file);
           const one = lambent.lambentOf(gltf);
           const scene = new THREE.Scene();
           const clones = [gltf.scene.clone(), window.SkeletonUtils.clone(gltf.scene)];
-          one.setLight(window.makeLight());
-          one.setEnvironment(around);
+          light(one);
           const instance = one.instantiate();
           [gltf.scene, ...clones, instance.root].forEach((root, i) => scene.add(put(root, i)));
           const out = {};

@@ -27,7 +27,7 @@ import { adviseOnDrawing, adviseOnPlace, type Drawn } from "./advice.js";
 import { AssetAir, type AirOptions } from "./asset-air.js";
 import type { AssetSource } from "./asset-source.js";
 import { checkTransfer, offers, type TransferChoice } from "./choices.js";
-import type { Given } from "./given.js";
+import { stateOfAsset, takeFrom, type Followed, type Given } from "./given.js";
 import { capturedUniforms, Mirrors } from "./mirrors.js";
 import { RelitMesh, type Choices, type Lights } from "./relit-mesh.js";
 import { kindWithoutBounces, SharpSun, sunNotes } from "./sharp-sun.js";
@@ -81,9 +81,10 @@ export class LambentAsset {
   readonly air = new AssetAir();
   private readonly screen = new FullScreenPass();
   private choice: TransferChoice = "best";
-  private given: Given = {};
-  /** What it takes from an asset that it was cloned from: where it has nothing of its own. */
-  private followed: { choices: Record<string, unknown>; given: Given } | null = null;
+  /** @internal */
+  readonly given: Given = {};
+  /** Of a clone: what it last took from what it was cloned from. */
+  private followed: Followed | null = null;
   private clones = new Set<WeakRef<LambentAsset>>();
   private readonly drawn: Drawn;
   private disposed = false;
@@ -185,42 +186,16 @@ export class LambentAsset {
       return relit && (copies.get(relit.mesh) as Mesh | undefined);
     });
     const made = new LambentAsset(root, this.source, meshes);
-    made.take(this);
+    takeFrom(made, this, null);
     return made;
   }
 
   /** What root.clone() is the root of. */
   private makeClone(): LambentAsset {
     const made = this.instantiate();
-    made.followed = { choices: made.settings(), given: { ...made.given } };
+    made.followed = stateOfAsset(made);
     this.clones.add(new WeakRef(made));
     return made;
-  }
-
-  private settings(): Record<string, unknown> {
-    return Object.fromEntries(kSettings.map((name) => [name, this[name]]));
-  }
-
-  /** All settings of another one, or, of a clone, those that were not changed here. */
-  private take(from: LambentAsset): void {
-    const followed = this.followed ?? { choices: this.settings(), given: { ...this.given } };
-    for (const name of kSettings)
-      if (this[name] === followed.choices[name]) Object.assign(this, { [name]: from[name] });
-    const { light, environment, sun, air } = from.given;
-    if (this.given.light === followed.given.light)
-      if (light !== undefined && light !== this.given.light) this.setLight(light);
-    if (this.given.environment === followed.given.environment)
-      if (environment !== undefined && environment !== this.given.environment)
-        this.setEnvironment(environment);
-    if (this.given.sun === followed.given.sun && sun && sun !== this.given.sun) {
-      this.setSun(sun.disc, sun.weights);
-      this.given.sun = sun;
-    }
-    if (this.given.air === followed.given.air && air && air !== this.given.air) {
-      this.setAir(air.air, air.options);
-      this.given.air = air;
-    }
-    if (this.followed) this.followed = { choices: from.settings(), given: { ...from.given } };
   }
 
   /** Whether every mesh holds what a choice asks for; "best" and "unshadowed" always. */
@@ -313,7 +288,7 @@ export class LambentAsset {
       const clone = each.deref();
       if (!clone || clone.disposed) this.clones.delete(each);
       else {
-        clone.take(this);
+        clone.followed = takeFrom(clone, this, clone.followed);
         relit = clone.update(renderer, camera) || relit;
       }
     }
@@ -496,20 +471,6 @@ export class LambentAsset {
     this.screen.dispose();
   }
 }
-
-/** What a clone takes from what it was cloned from. */
-const kSettings = [
-  "transfer",
-  "macro",
-  "viewDependent",
-  "filter",
-  "lobeExponent",
-  "softLobes",
-  "mirrorSize",
-  "unlit",
-  "samples",
-  "sample",
-] as const;
 
 const translation = new Vector3();
 const rotation = new Quaternion();
