@@ -14,11 +14,20 @@ light=$inputs/hdri/workshop.exr
 size=${DEMO_SIZE:-576x512} paths=${DEMO_PATHS:-512}
 view=(--size "$size" --light "$light" --rotate-y 270)
 
+cat <<EOF
+What there will be, in $(realpath "$out"); on two cores it takes about ten minutes:
+  bunny.png  a bunny under a real sky, half a minute from now
+  strip.png  the same picture path-traced (the longest step), ours, and the error
+  woven.png  a cloth spread over it, with its own shadows
+  day.png    a valley at four moments of a day
+
+EOF
 echo "1/6  bake: how light moves over the bunny's 34,835 vertices and the floor it stands on"
 "$lambent" bake "$inputs/bunny.obj" -o "$out/bunny.glb" --ground --albedo 0.75,0.65,0.55
 echo
 echo "2/6  render: the baked bunny under $(basename "$light")"
 "$lambent" render "$out/bunny.glb" "${view[@]}" -o "$out/bunny.png"
+echo "The first picture: $(realpath "$out/bunny.png")"
 "$lambent" render "$out/bunny.glb" "${view[@]}" --samples 64 -o "$out/ours.exr" --quiet
 echo
 echo "3/6  reference: the same picture path-traced"
