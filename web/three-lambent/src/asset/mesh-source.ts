@@ -18,8 +18,9 @@ import type { Numbers, PrimitiveTransfer, Vectors } from "../format/description.
 import type { Coverage } from "../materials/coverage.js";
 import { bandOf, evaluateHarmonics } from "../sh/basis.js";
 import { clampedCosineMoments } from "../sh/zonal.js";
-import { hasBacks, isBody } from "./closed.js";
+import { isBody } from "./closed.js";
 import type { Reflectance } from "./reflectance.js";
+import { hasBacks } from "./two-sides.js";
 
 /** A mesh as the loader made it, with what the file says of it. */
 export interface MeshEntry {
