@@ -4,8 +4,8 @@ import type { BufferGeometry } from "three";
 
 /**
  * Whether the second half of a geometry's triangles is the back of its first half: the same turned
- * over, (a, b, c) as (a', c', b'), with vertices of their own at the same positions. What faces away
- * is then to be culled: it has the same depth as what faces the eye.
+ * over, (a, b, c) as (a', c', b'), with vertices of their own at the same positions. What faces
+ * away is then to be culled: it has the same depth as what faces the eye.
  */
 export function hasBacks(geometry: BufferGeometry): boolean {
   const position = geometry.getAttribute("position");

@@ -3,7 +3,7 @@
 
 import type { Material, Primitive } from "@gltf-transform/core";
 import type { BufferGeometry } from "three";
-import { hasBacks } from "../asset/closed.js";
+import { hasBacks } from "../asset/two-sides.js";
 import { blocksOf, hasPicture, isObject, shapeOf } from "./blocks.js";
 
 /** The document's object, shared by all primitives of one bake. */
