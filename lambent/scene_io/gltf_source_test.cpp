@@ -209,10 +209,15 @@ TEST_F(GltfSource, AnythingMayStandAnywhere) {
   for (const char* place : places) {
     for (const json& value : values) {
       document_.j = sound;
-      json patch = json::array({{{"op", "add"}, {"path", place}, {"value", value}}});
+      json patch = json::array();
+      const auto add = [&](const std::string& path, const json& what) {
+        json step = json::object();
+        step["op"] = "add", step["path"] = path, step["value"] = what;
+        patch.insert(patch.begin(), std::move(step));
+      };
+      add(place, value);
       for (std::string path = place; (path = path.substr(0, path.rfind('/'))).size() > 1;)
-        if (!sound.contains(json::json_pointer(path)))
-          patch.insert(patch.begin(), {{"op", "add"}, {"path", path}, {"value", json::object()}});
+        if (!sound.contains(json::json_pointer(path))) add(path, json::object());
       document_.j = sound.patch(patch);
       const auto loaded = load(document_.write(folder_));
       if (!loaded) continue;
