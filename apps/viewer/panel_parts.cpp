@@ -23,14 +23,14 @@ void drawDiscs(Session& session, SkyMap& sky) {
     float shown = float(value);
     if (ImGui::SliderFloat(name, &shown, least, most, as, flags)) value = double(shown);
   };
-  slider("azimuth", disc.azimuth, -180.0f, 180.0f, "%.0f°");
-  slider("elevation", disc.elevation, -90.0f, 90.0f, "%.0f°");
+  slider("direction", disc.azimuth, -180.0f, 180.0f, "%.0f°");
+  slider("height", disc.elevation, -90.0f, 90.0f, "%.0f°");
   slider("size", disc.diameter, 0.25f, 180.0f, "%.2f°", ImGuiSliderFlags_Logarithmic);
 
   // Hue and strength apart: radiance has no upper end.
   float strength = std::max(disc.radiance.maxCoeff(), 1e-4f);
   Rgb hue = disc.radiance / strength;
-  if (ImGui::SliderFloat("radiance", &strength, 0.01f, 20000.0f, "%.2f",
+  if (ImGui::SliderFloat("brightness", &strength, 0.01f, 20000.0f, "%.2f",
                          ImGuiSliderFlags_Logarithmic))
     disc.radiance = hue * strength;
   if (ImGui::ColorEdit3("colour", hue.data(),
@@ -49,13 +49,16 @@ void drawTransfer(Session& session) {
     const char* name;
     Choice choice;
     bool offered;
-    const char* why;
+    const char* what;  ///< in the papers' words
+    const char* why;   ///< it is not offered
   } choices[] = {
-      {"best", Choice(), true, ""},
-      {"unshadowed", transfer::Kind::Unshadowed, can.unshadowed, "This asset records no transfer"},
-      {"shadowed", transfer::Kind::Shadowed, can.shadowed,
+      {"best", Choice(), true, "The most that the asset holds", ""},
+      {"bare", transfer::Kind::Unshadowed, can.unshadowed, "Unshadowed transfer",
+       "This asset records no transfer"},
+      {"shadows", transfer::Kind::Shadowed, can.shadowed, "Shadowed transfer",
        "The asset does not hold it: lambent bake --keep-shadowed keeps it"},
-      {"interreflected", transfer::Kind::Interreflected, can.interreflected,
+      {"bounces", transfer::Kind::Interreflected, can.interreflected,
+       "Interreflected transfer: shadows and bounces",
        "The asset does not hold it: lambent bake --transfer interreflected"},
   };
   int column = 0;
@@ -65,8 +68,8 @@ void drawTransfer(Session& session) {
     if (ImGui::RadioButton(each.name, session.state.transfer == each.choice))
       session.state.transfer = each.choice;
     ImGui::EndDisabled();
-    if (!each.offered && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-      ImGui::SetTooltip("%s", each.why);
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+      ImGui::SetTooltip("%s", each.offered ? each.what : each.why);
   }
 }
 

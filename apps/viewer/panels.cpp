@@ -59,7 +59,7 @@ void Panels::draw(Session& session, const FrameTimes& times, const Layout& layou
     if (section("Sky")) drawSky(session);
     if (section("Light")) drawLight(session);
     if (session.stage.hasSurroundings() && section("Around it")) drawSurroundings(session);
-    if (section("Transfer")) drawAsset(session);
+    if (section("Surface")) drawAsset(session);
     ImGui::EndChild();
     drawTimes(session, times);
     ImGui::End();
@@ -91,9 +91,9 @@ void Panels::drawFiles(Session& session, const PixelSize& picture) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Save the picture as PNG (S)");
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (ImGui::Button("State", {third, 0})) session.saveState(session.freeName(".json"));
+  if (ImGui::Button("View", {third, 0})) session.saveState(session.freeName(".json"));
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("Save all that is set up here (Ctrl+S), for lambent render --view");
+    ImGui::SetTooltip("Save the view, all that is set up here (Ctrl+S), for lambent render --view");
 }
 
 void Panels::drawLight(Session& session) {
@@ -118,7 +118,7 @@ void Panels::drawLight(Session& session) {
   float turn = float(turnOf(state));
   if (ImGui::SliderFloat("turn", &turn, -180.0f, 180.0f, "%.0f°"))
     session.turnEnvironment(Vec3d::UnitY(), (double(turn) - turnOf(state)) * kPi / 180.0);
-  ImGui::Checkbox("turns by itself", &session.desk.turnEnvironment);
+  ImGui::Checkbox("let it go round", &session.desk.turnEnvironment);
   ImGui::SameLine();
   if (ImGui::SmallButton("reset")) state.environmentRotation = {0, 0, 0, 1};
 
@@ -126,19 +126,20 @@ void Panels::drawLight(Session& session) {
 
   const char* windows[] = {"auto", "none", "hann", "lanczos", "minimal"};
   const std::string kind = state.window.substr(0, state.window.find(':'));
-  if (ImGui::BeginCombo("window", kind.c_str())) {
+  if (ImGui::BeginCombo("smoothing", kind.c_str())) {
     for (const char* each : windows)
       if (ImGui::Selectable(each, kind == each)) state.window = each;
     ImGui::EndCombo();
   }
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("Softens the highest bands of the light against ringing (W)");
+    ImGui::SetTooltip(
+        "Against rings around highlights: of gloss alone (auto), or windowing of the light (W)");
   if (kind == "hann" || kind == "lanczos") {
     const std::size_t colon = state.window.find(':');
     const int bands = session.stage.empty() ? 5 : session.stage.asset().transfer.bands;
     float width =
         colon == state.window.npos ? float(bands) : std::strtof(&state.window[colon + 1], nullptr);
-    if (ImGui::SliderFloat("its width", &width, 1.0f, 20.0f, "%.1f bands"))
+    if (ImGui::SliderFloat("detail", &width, 1.0f, 20.0f, "%.1f bands"))
       state.window = fmt::format("{}:{:.1f}", kind, width);
   }
   ImGui::PopItemWidth();
@@ -157,17 +158,17 @@ void Panels::drawAsset(Session& session) {
       ImGui::SetTooltip("%s", why);
   };
   bool sharp = state.sunShadow == shade::SunShadow::Sharp;
-  switchFor("sharp Sun", &sharp, can.sharpSun,
+  switchFor("sharp shadow of the Sun", &sharp, can.sharpSun,
             "The asset holds direct light and bounces as one (lambent bake --keep-shadowed)");
   state.sunShadow = sharp ? shade::SunShadow::Sharp : shade::SunShadow::Soft;
   const char* noMeso = "Only for assets with meso-structure (lambent synthesize)";
-  switchFor("macro", &state.macro, can.mesoStructure, noMeso);
-  ImGui::SameLine();
-  switchFor("view dependence", &state.viewDependent, can.mesoStructure, noMeso);
+  switchFor("shadows on the relief", &state.macro, can.mesoStructure, noMeso);
+  switchFor("relief changes with the view", &state.viewDependent, can.mesoStructure, noMeso);
 
   ImGui::BeginDisabled(!can.glossy);
   bool own = state.lobe.has_value();
-  if (ImGui::Checkbox("own lobe", &own)) state.lobe = own ? std::optional(16.0) : std::nullopt;
+  if (ImGui::Checkbox("gloss of my own", &own))
+    state.lobe = own ? std::optional(16.0) : std::nullopt;
   ImGui::EndDisabled();
   if (!can.glossy && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("This asset has no glossy transfer");
@@ -175,8 +176,7 @@ void Panels::drawAsset(Session& session) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     float exponent = float(*state.lobe);
-    if (ImGui::SliderFloat("##lobe", &exponent, 1.0f, 256.0f, "exponent %.0f",
-                           ImGuiSliderFlags_Logarithmic))
+    if (ImGui::SliderFloat("##lobe", &exponent, 1.0f, 256.0f, "%.0f", ImGuiSliderFlags_Logarithmic))
       state.lobe = double(exponent);
   }
   ImGui::Checkbox("object turns by itself", &session.desk.turnObject);

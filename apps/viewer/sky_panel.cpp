@@ -122,7 +122,7 @@ Answer chooseMoment(sky::SkyRequest& request, bool live) {
 
 Answer chooseSun(sky::SkyRequest& request, bool live) {
   double elevation = request.sunElevation.value_or(30), bearing = request.sunAzimuth.value_or(180);
-  Answer answer = slide("elevation##sun", elevation, -18, 90, "%.1f°", 0.1, live);
+  Answer answer = slide("height##sun", elevation, -18, 90, "%.1f°", 0.1, live);
   answer = stronger(answer, slide("bearing", bearing, 0, 360, "%.1f°", 0.1, live));
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Compass: north 0, east 90");
   request.sunElevation = elevation, request.sunAzimuth = bearing;
@@ -137,7 +137,7 @@ Answer chooseAir(sky::SkyRequest& request, bool live) {
     if (answer != Answer::None) value = shown;
     return answer;
   };
-  Answer answer = of(request.turbidity, 2.5, "turbidity", 1, 10,
+  Answer answer = of(request.turbidity, 2.5, "haze", 1, 10,
                      request.turbidity ? "%.1f" : "as the air has it", 0.1);
   answer = stronger(answer, of(request.albedo, 0.2, "albedo", 0, 1,
                                request.albedo ? "%.2f" : "as the air has it", 0.01));
@@ -149,21 +149,21 @@ Answer chooseAir(sky::SkyRequest& request, bool live) {
 void drawAirShown(Session& session) {
   std::optional<view::AirShown>& air = session.state.air;
   bool shown = air.has_value();
-  if (ImGui::Checkbox("aerial perspective", &shown))
+  if (ImGui::Checkbox("seen through the air", &shown))
     air = shown ? std::optional<view::AirShown>(std::in_place) : std::nullopt;
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("What is far away is seen through this sky's air");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("Aerial perspective: what is far away pales in this sky's air");
   if (!air) return;
-  ImGui::SameLine();
   const bool sharp = session.state.sunShadow == shade::SunShadow::Sharp;
   ImGui::BeginDisabled(!sharp);
-  ImGui::Checkbox("shafts", &air->shafts);
+  ImGui::Checkbox("shafts of light", &air->shafts);
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
-    ImGui::SetTooltip("%s", sharp ? "Of light: shadows of the Sun in the air"
-                                  : "They take a sharp Sun (see Transfer)");
+    ImGui::SetTooltip("%s", sharp ? "Shadows of the Sun in the air"
+                                  : "They take the sharp shadow of the Sun (see Surface)");
   float metres = float(air->metresPerUnit);
   ImGui::PushItemWidth(-ImGui::GetFontSize() * 6.2f);
-  if (ImGui::SliderFloat("a unit is", &metres, 0.01f, 1e5f, "%.4g m",
+  if (ImGui::SliderFloat("one unit", &metres, 0.01f, 1e5f, "%.4g m",
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
     // Digits as a person would write them.
     air->metresPerUnit = std::strtod(fmt::format("{:.3g}", metres).c_str(), nullptr);
