@@ -64,6 +64,9 @@ Status write(const Asset& asset, const std::filesystem::path& path) {
   json root = rootObject(asset.transfer);
   for (const transfer::EncodedRtt& rtt : asset.transfer.rtts)
     file::arrayAt(root, "rtts").push_back(toJson(rtt, gltf));
+  // What optimisers keep that drop an extension they do not know: scene_io then says what was lost.
+  if (json& extras = file::objectAt(gltf.json()["asset"], "extras"); extras.is_object())
+    extras["lambent"] = {{"baked", root["version"]}};
   file::objectAt(gltf.json(), "extensions")[std::string(kExtensionName)] = std::move(root);
   for (std::size_t i = 0; i < asset.transfer.meshes.size(); ++i) {
     // Before the look-up: it appends to the document.

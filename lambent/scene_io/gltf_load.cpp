@@ -296,6 +296,15 @@ Status Loader::addBacks() {
 void Loader::noteLosses() {
   noteExtensions(document_, diagnosis_);
   noteWrongTypes(document_, diagnosis_);
+  // The mark that asset/write.cpp leaves.
+  const json* mark = find(find(find(document_, "asset"), "extras"), "lambent");
+  if (find(mark, "baked") != nullptr &&
+      find(find(document_, "extensions"), "LAMBENT_radiance_transfer") == nullptr)
+    diagnosis_.lose(
+        Severity::Warning, "transfer-stripped", 1,
+        "this was baked, and an optimiser has stripped its transfer: it is a plain scene "
+        "now; bake it again after the optimiser, or give that three-lambent/gltf-transform, "
+        "which keeps transfer");
   if (const std::size_t count = arraySize(find(document_, "animations")); count > 0) {
     diagnosis_.lose(
         Severity::Note, "animations-ignored", count,

@@ -161,8 +161,11 @@ Result<std::shared_ptr<scene::Source>> sourceOf(const GltfFile& file,
   source->copyright = text(asset, "copyright");
   source->generator = text(asset, "generator");
   source->title = text(find(kept, "scene"), "name");
-  if (const json* extras = find(asset, "extras"))
-    source->assetExtras = extras->dump(-1, ' ', false, json::error_handler_t::replace);
+  if (const json* extras = find(asset, "extras")) {
+    const json own = extras->is_object() ? withoutKeys(*extras, {"lambent"}) : *extras;
+    if (!own.empty())
+      source->assetExtras = own.dump(-1, ' ', false, json::error_handler_t::replace);
+  }
   source->materials.assign(materials.begin(), materials.end());
 
   std::vector<int> placeOf(arraySize(find(document, "nodes")), -1);

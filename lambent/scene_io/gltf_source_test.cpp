@@ -58,6 +58,20 @@ TEST_F(GltfSource, SaysWhoseItIs) {
   EXPECT_EQ(again()["asset"], document_.j["asset"]);
 }
 
+TEST_F(GltfSource, WhatLostItsTransferIsToldFromWhatWasNeverBaked) {
+  const auto isStripped = [&] {
+    EXPECT_TRUE(read());
+    return std::any_of(findings_.begin(), findings_.end(),
+                       [](const report::Finding& f) { return f.code == "transfer-stripped"; });
+  };
+  EXPECT_FALSE(isStripped());
+  document_.j["asset"]["extras"] = {{"lambent", {{"baked", "1.3"}}}, {"license", "L"}};
+  EXPECT_TRUE(isStripped());
+  EXPECT_EQ(again()["asset"]["extras"], json({{"license", "L"}}));
+  document_.j["extensions"]["LAMBENT_radiance_transfer"] = json::object();
+  EXPECT_FALSE(isStripped());
+}
+
 TEST_F(GltfSource, SetsOfCoordinatesMoveUp) {
   document_.j["materials"][0]["occlusionTexture"] = {{"index", 0}, {"texCoord", 3}};
   document_.j["materials"][0]["normalTexture"] = {{"index", 0}};

@@ -108,6 +108,9 @@ void SourceWriter::writeHead() {
   asset["generator"] = before.empty()                  ? "Lambent"
                        : before.starts_with("Lambent") ? before
                                                        : "Lambent (from: " + before + ")";
+  if (json* extras = asset.contains("extras") ? &asset["extras"] : nullptr)
+    if (extras->is_object() && extras->erase("lambent") > 0 && extras->empty())
+      asset.erase("extras");
   document_["asset"] = std::move(asset);
   for (const char* key : {"extensions", "extras"})
     if (from_.contains(key)) document_[key] = from_[key];
