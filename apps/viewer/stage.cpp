@@ -10,7 +10,8 @@ namespace lambent::viewer {
 namespace {
 
 bool sameOptions(const view::ViewState& a, const view::ViewState& b) {
-  return a.transfer == b.transfer && a.lobe == b.lobe && a.macro == b.macro &&
+  return a.transfer == b.transfer && a.lobe == b.lobe &&
+         view::showingOf(a).softLobes == view::showingOf(b).softLobes && a.macro == b.macro &&
          a.viewDependent == b.viewDependent;
 }
 

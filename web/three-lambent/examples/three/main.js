@@ -24,13 +24,17 @@ scene.add(gltf.scene);
 const light = new LambentLight(asset.info.bands);
 const up = new THREE.Vector3(0, 1, 0);
 const lamp = new THREE.Vector3(1, 0.8, 0);
+const discs = [
+  { direction: up, diameter: Math.PI, radiance: [0.25, 0.35, 0.5] },
+  { direction: lamp, diameter: 0.6, radiance: [9, 8, 6] },
+];
 asset.setLight(light);
 
 function frame() {
   lamp.applyAxisAngle(up, 0.01);
   light.scale(0);
-  light.addDisc({ direction: up, diameter: Math.PI, radiance: [0.25, 0.35, 0.5] });
-  light.addDisc({ direction: lamp, diameter: 0.6, radiance: [9, 8, 6] });
+  for (const disc of discs) light.addDisc(disc);
+  asset.setEnvironment({ discs }); // what mirrors show where they do not see the asset
   controls.update();
   asset.update(renderer, camera); // relights, if light or asset have changed
   renderer.render(scene, camera);
