@@ -192,7 +192,8 @@ const TransferOnGpu::LightBuffer& TransferOnGpu::lightOf(const Relit& relit) {
     case Relit::Light::SoftLobes:
       break;
   }
-  if (std::exchange(softLobesStale_, false)) ofSoftLobes_.write(shade::softened(lightOnCpu_));
+  if (lightOnCpu_.bands > 0 && std::exchange(softLobesStale_, false))
+    ofSoftLobes_.write(shade::softened(lightOnCpu_));
   return ofSoftLobes_;
 }
 

@@ -2,11 +2,17 @@
 import { useRef, useState } from "react";
 import { Canvas, useFrame, useThree } from "@react-three/fiber";
 import { Vector3, type Group, type PerspectiveCamera } from "three";
-import { frameAutomatically, LambentLight, type LambentAsset as Asset } from "three-lambent";
+import {
+  frameAutomatically,
+  LambentLight,
+  type Disc,
+  type LambentAsset as Asset,
+} from "three-lambent";
 import { LambentAsset } from "three-lambent/react";
 
-const light = LambentLight.uniform([0.25, 0.35, 0.5], 5);
-light.addDisc({ direction: new Vector3(1, 0.8, 0), diameter: 0.6, radiance: [9, 8, 6] });
+const lamp: Disc = { direction: new Vector3(1, 0.8, 0), diameter: 0.6, radiance: [9, 8, 6] };
+const light = LambentLight.uniform([0.25, 0.35, 0.5], 5).addDisc(lamp);
+const environment = { uniform: [0.25, 0.35, 0.5] as const, discs: [lamp] }; // what mirrors show
 
 function Turning() {
   const group = useRef<Group>(null);
@@ -19,6 +25,7 @@ function Turning() {
       <LambentAsset
         url="baked.glb"
         light={light}
+        environment={environment}
         transfer={shadows ? "best" : "unshadowed"}
         onClick={() => setShadows(!shadows)}
         onLoad={frame}

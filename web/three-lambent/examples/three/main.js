@@ -24,6 +24,7 @@ scene.add(gltf.scene);
 const light = new LambentLight(asset.info.bands);
 const up = new THREE.Vector3(0, 1, 0);
 const lamp = new THREE.Vector3(1, 0.8, 0);
+/** @type {import("three-lambent").Disc[]} */
 const discs = [
   { direction: up, diameter: Math.PI, radiance: [0.25, 0.35, 0.5] },
   { direction: lamp, diameter: 0.6, radiance: [9, 8, 6] },

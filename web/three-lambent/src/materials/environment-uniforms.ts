@@ -28,7 +28,7 @@ export interface Environment {
    * Latitude-longitude, in the layout of three's EquirectangularReflectionMapping. Looked up
    * without mipmaps, bilinear, whatever its own filters are. null: no map.
    */
-  texture: Texture | null;
+  texture?: Texture | null;
   /** worldFromEnvironment: how the map is turned. The discs stand in the world. */
   rotation?: QuaternionLike;
   /** Times the texture's values. Default 1. */

@@ -1,6 +1,13 @@
 // <LambentAsset>: an asset as a component of @react-three/fiber.
 
-import { createElement, useEffect, useLayoutEffect, useState, type ReactNode } from "react";
+import {
+  createElement,
+  useEffect,
+  useLayoutEffect,
+  useRef,
+  useState,
+  type ReactNode,
+} from "react";
 import { useFrame, useThree, type ThreeElements } from "@react-three/fiber";
 import type { LambentAsset as Asset } from "../asset/asset.js";
 import type { AirOptions } from "../asset/asset-air.js";
@@ -11,7 +18,7 @@ import { useLambent, type UseLambentOptions } from "./use-lambent.js";
 
 /** Switches of the asset that are props of the same name; what is left out is as it was loaded. */
 const kSwitches = [
-  ...(["transfer", "macro", "viewDependent", "filter", "lobeExponent"] as const),
+  ...(["transfer", "macro", "viewDependent", "filter", "lobeExponent", "softLobes"] as const),
   ...(["mirrorSize", "unlit"] as const),
 ];
 type Switches = Partial<Pick<Asset, (typeof kSwitches)[number]>>;
@@ -39,14 +46,24 @@ export type LambentAssetProps = RelitProps &
     | { asset: Asset | null; url?: undefined }
   );
 
+/** What was never given is not set, so that the asset can say what it lacks. */
+function useGiven<T>(value: T | null | undefined, set: (value: T | null) => void): void {
+  const given = useRef(false);
+  useLayoutEffect(() => {
+    given.current ||= value !== undefined;
+    if (given.current) set(value ?? null);
+    // eslint-disable-next-line react-hooks/exhaustive-deps -- `set` is the same asset's
+  }, [value]);
+}
+
 /** Applies props, and relights in every frame, after what had been mounted before has moved. */
 function Relit({ asset, props }: { asset: Asset; props: RelitProps }): ReactNode {
   const invalidate = useThree((state) => state.invalidate);
   const [loaded] = useState(() => Object.fromEntries(kSwitches.map((key) => [key, asset[key]])));
-  const { light = null, sun = null, environment = null, air = null, airOptions } = props;
-  useLayoutEffect(() => asset.setLight(light), [asset, light]);
+  const { light, sun = null, environment, air = null, airOptions } = props;
+  useGiven(light, (value) => asset.setLight(value));
   useLayoutEffect(() => asset.setSun(sun), [asset, sun]);
-  useLayoutEffect(() => asset.setEnvironment(environment), [asset, environment]);
+  useGiven(environment, (value) => asset.setEnvironment(value));
   useLayoutEffect(() => asset.setAir(air, airOptions), [asset, air, airOptions]);
   useLayoutEffect(() => {
     const given = props as Record<string, unknown>;

@@ -60,6 +60,7 @@ async function render(children) {
 const propsOf = ({ light, ...rest }) => ({
   ...rest,
   light: light === undefined ? uniform : lights[light],
+  environment: null, // darkness that is asked for
   onLoad: (asset) => assets.add(asset),
 });
 
@@ -79,7 +80,7 @@ globalThis.showLoaded = async (url) => {
   const asset = (await loader.loadAsync(url)).userData.lambent;
   globalThis.given = asset;
   await render([
-    h(LambentAsset, { key: "given", asset, light: uniform, onLoad: (a) => assets.add(a) }),
+    h(LambentAsset, { key: "given", asset, light: uniform, environment: null, onLoad: (a) => assets.add(a) }),
   ]);
 };
 
