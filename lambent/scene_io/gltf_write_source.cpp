@@ -258,6 +258,8 @@ std::vector<UvSlot> SourceWriter::uvSlotsOf(const scene::Mesh& mesh) const {
   const json* mappings = find(find(find(part, "extensions"), kVariants), "mappings");
   for (std::size_t i = 0; i < arraySize(mappings); ++i)
     want(integer((*mappings)[i], "material").value_or(-1));
+  // Another set in the place of the one that is missing would be where its texture is looked up.
+  if (mesh.uvs.empty() && scene::materialOf(scene_, mesh).baseColorTexture >= 0) return {};
   return slots_.of(mesh, wanted);
 }
 

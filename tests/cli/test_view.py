@@ -384,7 +384,7 @@ class View(ToolTest):
         self.assertAlmostEqual(state["environment"]["rotation"][1], 0.0872, 3)
         self.assertAlmostEqual(state["exposure"], 1 / 3, 6)
         self.assertEqual([state["tone"], state["background"], state["transfer"], state["window"]],
-                         ["linear", False, "unshadowed", "hann"])
+                         ["linear", False, "unshadowed", "none"])
         self.assertIsNotNone(state["camera"])
         self.assertTrue(self.path("ball-001.png").exists())
         self.assertEqual(read_png(self.path("help.png"))[:2], (560, 320))

@@ -76,7 +76,8 @@ def outcome(tool: str, root: Path, path: Path) -> dict:
             baked = step("bake", path, "-o", asset, "--memory-limit", FILE_MEMORY, *RAYS)
             if baked and (summary := step("info", asset)):
                 row["triangles"] = str(summary["triangles"])
-            if baked and (summary := step("shade", asset, "--light", "uniform", "-o", shaded)):
+            shown = ["--light", "uniform", "--window", "none", "-o", shaded]
+            if baked and (summary := step("shade", asset, *shown)):
                 row["mean"] = " ".join(f"{c:.5g}" for c in summary["mean_radiance"])
     row["findings"] = " ".join(sorted(codes))
     return row
