@@ -15,8 +15,8 @@ size=${DEMO_SIZE:-576x512} paths=${DEMO_PATHS:-512}
 view=(--size "$size" --light "$light" --rotate-y 270)
 
 cat <<EOF
-What there will be, in $(realpath "$out"); on two cores it takes about ten minutes:
-  bunny.png  a bunny under a real sky, half a minute from now
+What there will be, in $(realpath "$out"); it takes some three minutes on two cores:
+  bunny.png  a bunny under a real sky, within half a minute
   strip.png  the same picture path-traced (the longest step), ours, and the error
   woven.png  a cloth spread over it, with its own shadows
   day.png    a valley at four moments of a day
