@@ -1,32 +1,14 @@
 // The page for everybody: no violation that axe-core knows in any of its states, and everything by
 // the keyboard alone.
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { after, afterEach, before, describe, it } from "node:test";
+import { describe, it } from "node:test";
 import { mattScene } from "../../../web/three-lambent/test/support/scenes.mjs";
-import { axe, drop, launch, openPage, pageFolder, serve } from "./session.mjs";
+import { axe, drop, pageFolder, visiting } from "./session.mjs";
 
-let folder, server, browser, opened;
-
-before(async () => {
-  folder = mkdtempSync(join(tmpdir(), "lambent-access-"));
-  server = await serve(folder, []);
-  browser = await launch();
-});
-after(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true });
-});
-afterEach(async () => {
-  await opened?.context.close();
-  opened = undefined;
-});
-
-const open = async (options) => (opened = await openPage(browser, server.url, options)).page;
+const visit = visiting("access");
+const open = (options) => visit.open(options);
 
 /** Fails with what is wrong and where. */
 async function assertAccessible(page, state) {
@@ -72,7 +54,7 @@ describe("the page", () => {
     await page.keyboard.press("h");
     await page.keyboard.press("?");
     await assertAccessible(page, "help");
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("has none on a phone, in any of its tabs", async () => {
@@ -101,8 +83,8 @@ describe("the page", () => {
   });
 
   it("has none from a folder", async () => {
-    opened = { context: await browser.newContext() };
-    const page = await opened.context.newPage();
+    visit.opened = { context: await visit.browser.newContext() };
+    const page = await visit.opened.context.newPage();
     await page.goto(pathToFileURL(join(pageFolder, "index.html")).href);
     await assertAccessible(page, "from a folder");
   });
@@ -151,6 +133,6 @@ describe("the page", () => {
     await page.keyboard.press("Space");
     assert.equal(await page.locator(".message").count(), 0);
     assert.equal(await page.evaluate(() => window.lambent.viewer.playing), false);
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 });

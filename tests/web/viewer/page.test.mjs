@@ -2,17 +2,14 @@
 // good, keys, fingers, a narrow window, and a graphics context that goes away.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { request } from "node:http";
-import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after, afterEach, before, describe, it } from "node:test";
+import { describe, it } from "node:test";
 import { environmentExr, mattScene } from "../../../web/three-lambent/test/support/scenes.mjs";
 import { withJson } from "./glb.mjs";
 import { decodePng, meanDifference } from "./png.mjs";
-import { drop, launch, openPage, picture, serve, settled, tool, view } from "./session.mjs";
-
-let folder, server, browser, opened;
+import { drop, launch, openPage, picture, settled, tool, view, visiting } from "./session.mjs";
 
 /** As Draco's encoders declare it. */
 const withDraco = (glb) => {
@@ -20,34 +17,22 @@ const withDraco = (glb) => {
   return withJson(glb, { extensionsUsed: [name], extensionsRequired: [name] });
 };
 
-before(async () => {
-  folder = mkdtempSync(join(tmpdir(), "lambent-page-"));
+const visit = visiting("page", (folder) => {
   writeFileSync(join(folder, "scene.glb"), mattScene);
   writeFileSync(join(folder, "light.exr"), environmentExr);
   execFileSync(tool, ["bake", "scene.glb", "-o", "matt.glb", "--directions", "256", "--quiet"], {
     cwd: folder,
   });
-  server = await serve(folder, ["matt.glb", "light.exr"]);
-  browser = await launch();
+  return ["matt.glb", "light.exr"];
 });
-after(async () => {
-  await browser?.close();
-  assert.equal(await server?.stop(), 0, "Ctrl-C is how the server ends");
-  rmSync(folder, { recursive: true });
-});
-afterEach(async () => {
-  await opened?.context.close();
-  opened = undefined;
-});
-
-const open = async (options) => (opened = await openPage(browser, server.url, options)).page;
+const open = (options) => visit.open(options);
 const shot = async (page) => decodePng(await picture(page));
 const message = (page) => page.locator(".message.error p").last().textContent({ timeout: 10_000 });
 
 describe("the server", () => {
   const ask = (path, options = {}) =>
     new Promise((resolve, reject) => {
-      const sent = request({ host: "127.0.0.1", port: server.port, path, ...options }, (answer) => {
+      const sent = request({ host: "127.0.0.1", port: visit.server.port, path, ...options }, (answer) => {
         let body = "";
         answer.on("data", (part) => (body += part));
         answer.on("end", () => resolve({ status: answer.statusCode, headers: answer.headers, body }));
@@ -88,14 +73,14 @@ describe("the server", () => {
     }
   });
   it("gives everything whole to a browser's tabs at once, whoever of them gives up", async () => {
-    const context = await browser.newContext();
+    const context = await visit.browser.newContext();
     const failed = [];
     const tabs = await Promise.all([0, 1, 2, 3].map(async () => {
       const tab = await context.newPage();
       tab.on("requestfailed", (request) => {
         if (!request.url().endsWith("given-up")) failed.push(request.url());
       });
-      await tab.goto(`${server.url}icon.svg`);
+      await tab.goto(`${visit.server.url}icon.svg`);
       return tab;
     }));
     const wrong = await Promise.all(tabs.map((tab) => tab.evaluate(async () => {
@@ -128,9 +113,9 @@ describe("the server", () => {
     await context.close();
   });
   it("answers to no other name, and takes nothing in", async () => {
-    for (const host of ["evil.example", `evil.example:${server.port}`, "127.0.0.1", "localhost:1"])
+    for (const host of ["evil.example", `evil.example:${visit.server.port}`, "127.0.0.1", "localhost:1"])
       assert.equal((await ask("/manifest.json", { headers: { Host: host } })).status, 403, host);
-    const named = { headers: { Host: `localhost:${server.port}` } };
+    const named = { headers: { Host: `localhost:${visit.server.port}` } };
     assert.equal((await ask("/manifest.json", named)).status, 200);
     for (const method of ["POST", "PUT", "DELETE"])
       assert.ok((await ask("/manifest.json", { method })).status >= 400, method);
@@ -147,13 +132,13 @@ describe("the page", () => {
     const began = await page.evaluate(
       () => performance.getEntriesByName("lambent-first-view")[0].startTime);
     console.log(`first view ${began.toFixed(0)} ms after the navigation began`);
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("says what is wrong with a damaged file, and keeps what it showed", async () => {
     const page = await open();
     const first = await shot(page);
-    const whole = readFileSync(join(folder, "matt.glb"));
+    const whole = readFileSync(join(visit.folder, "matt.glb"));
     const cases = [
       ["cut.glb", whole.subarray(0, whole.length >> 1), /cut\.glb/],
       ["not.glb", Buffer.from("something else"), /not\.glb: not a binary glTF/],
@@ -186,22 +171,22 @@ describe("the page", () => {
     await drop(page, { name: "saved.json", bytes: JSON.stringify(saved) });
     await page.waitForFunction(() => window.lambent.view().exposure === 1);
     assert.deepEqual(await view(page), saved);
-    await drop(page, { name: "mine.glb", bytes: readFileSync(join(folder, "matt.glb")) });
+    await drop(page, { name: "mine.glb", bytes: readFileSync(join(visit.folder, "matt.glb")) });
     await page.waitForFunction(() => 
       window.lambent.viewer.library.assets.some((a) => a.name === "mine.glb"));
     await settled(page);
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("opens a link with a view", async () => {
     const page = await open();
     await page.evaluate(() => window.lambent.viewer.change((v) => (v.exposure = -2)));
     const saved = await view(page);
-    await opened.context.close();
+    await visit.opened.context.close();
     const hash = new URLSearchParams({ view: JSON.stringify(saved) });
-    opened = await openPage(browser, `${server.url}#${hash}`);
-    assert.deepEqual(await view(opened.page), saved);
-    assert.deepEqual(opened.complaints, []);
+    visit.opened = await openPage(visit.browser, `${visit.server.url}#${hash}`);
+    assert.deepEqual(await view(visit.opened.page), saved);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("does what its keys say", async () => {
@@ -248,7 +233,7 @@ describe("the page", () => {
 
   it("turns, pans and zooms under fingers", async () => {
     const page = await open({ hasTouch: true, viewport: { width: 360, height: 740 } });
-    const cdp = await opened.context.newCDPSession(page);
+    const cdp = await visit.opened.context.newCDPSession(page);
     const touch = (type, ...points) =>
       cdp.send("Input.dispatchTouchEvent", {
         type,
@@ -302,7 +287,7 @@ describe("the page", () => {
     }
     const canvas = await page.locator("#picture").boundingBox();
     assert.ok(canvas.height > 300, "the picture has room");
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("comes back when the graphics context was lost", async () => {
@@ -323,7 +308,7 @@ describe("the page", () => {
     const bare = await launch(["--disable-3d-apis"]);
     try {
       const page = await bare.newPage();
-      await page.goto(server.url);
+      await page.goto(visit.server.url);
       assert.match(await page.locator(".sorry").textContent(), /WebGL 2.*lambent view/s);
     } finally {
       await bare.close();

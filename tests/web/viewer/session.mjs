@@ -1,8 +1,11 @@
 // The tool's server and a browser that shows its page.
+import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
+import { after, afterEach, before } from "node:test";
 
 export const tool = process.env.LAMBENT_TOOL ?? "lambent";
 /** Where node finds playwright-core: a folder with node_modules. */
@@ -122,4 +125,32 @@ export async function drop(page, ...files) {
         new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
     window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true }));
   }, files.map(({ name, bytes }) => ({ name, base64: Buffer.from(bytes).toString("base64") })));
+}
+
+/**
+ * What a file of tests has: a folder, a server of what `prepare(folder)` names of it, a browser, and
+ * the page that a test opened last, which is closed after it.
+ */
+export function visiting(name, prepare = () => []) {
+  const visit = {
+    async open(options, hash = "") {
+      visit.opened = await openPage(visit.browser, visit.server.url + hash, options);
+      return visit.opened.page;
+    },
+  };
+  before(async () => {
+    visit.folder = mkdtempSync(join(tmpdir(), `lambent-${name}-`));
+    visit.server = await serve(visit.folder, prepare(visit.folder));
+    visit.browser = await launch();
+  });
+  after(async () => {
+    await visit.browser?.close();
+    if (visit.server) assert.equal(await visit.server.stop(), 0, "Ctrl-C is how the server ends");
+    rmSync(visit.folder, { recursive: true });
+  });
+  afterEach(async () => {
+    await visit.opened?.context.close();
+    visit.opened = undefined;
+  });
+  return visit;
 }

@@ -2,36 +2,21 @@
 // not, and its controls.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, afterEach, before, describe, it } from "node:test";
+import { describe, it } from "node:test";
 import { ballScene } from "../../../web/three-lambent/test/support/scenes.mjs";
 import { decodePng, meanDifference } from "./png.mjs";
-import { kSize, launch, openPage, serve, tool } from "./session.mjs";
+import { kSize, tool, visiting } from "./session.mjs";
 
-let folder, server, browser, opened;
-
-before(async () => {
-  folder = mkdtempSync(join(tmpdir(), "lambent-sky-"));
+const visit = visiting("sky", (folder) => {
   writeFileSync(join(folder, "scene.glb"), ballScene);
   execFileSync(tool, ["bake", "scene.glb", "-o", "ball.glb", "--directions", "256", "--quiet"], {
     cwd: folder,
   });
-  server = await serve(folder, ["ball.glb"]);
-  browser = await launch();
+  return ["ball.glb"];
 });
-after(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true });
-});
-afterEach(async () => {
-  await opened?.context.close();
-  opened = undefined;
-});
-
-const open = async (options) => (opened = await openPage(browser, server.url, options)).page;
+const open = (options) => visit.open(options);
 const source = (page) => page.evaluate(() => window.lambent.view().environment.source);
 
 const kBound = 0.5; // 1/255
@@ -61,11 +46,11 @@ describe("a sky in the page", () => {
         exposure,
         samples: 9,
       };
-      writeFileSync(join(folder, "view.json"), JSON.stringify(state));
+      writeFileSync(join(visit.folder, "view.json"), JSON.stringify(state));
       execFileSync(tool, ["render", "ball.glb", "--view", "view.json", "--backend", "cpu",
-        "--size", `${kSize}x${kSize}`, "-o", `${i}.png`, "--quiet"], { cwd: folder });
+        "--size", `${kSize}x${kSize}`, "-o", `${i}.png`, "--quiet"], { cwd: visit.folder });
       assert.ok(await page.evaluate((json) => window.lambent.showView(json), state), text);
-      const expected = decodePng(readFileSync(join(folder, `${i}.png`)));
+      const expected = decodePng(readFileSync(join(visit.folder, `${i}.png`)));
       const seen = decodePng(await page.screenshot());
       const difference = meanDifference(expected, seen, null);
       console.log(`${text}: ${difference.toFixed(3)}/255`);
@@ -74,7 +59,7 @@ describe("a sky in the page", () => {
       const mirrored = meanDifference(expected, seen, null, (x, y) => [last - x, y]);
       if (!text.includes("overcast")) assert.ok(mirrored > 2 * difference + 1, `mirrored ${mirrored}`);
     }
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("is seen through the air of a view, as by lambent render --view", async () => {
@@ -89,10 +74,10 @@ describe("a sky in the page", () => {
       air: { metresPerUnit: 3000 },
       samples: 4,
     };
-    writeFileSync(join(folder, "air.json"), JSON.stringify(state));
+    writeFileSync(join(visit.folder, "air.json"), JSON.stringify(state));
     execFileSync(tool, ["render", "ball.glb", "--view", "air.json", "--size", `${kSize}x${kSize}`,
-      "-o", "air.png", "--quiet"], { cwd: folder });
-    const expected = decodePng(readFileSync(join(folder, "air.png")));
+      "-o", "air.png", "--quiet"], { cwd: visit.folder });
+    const expected = decodePng(readFileSync(join(visit.folder, "air.png")));
     assert.ok(await page.evaluate((json) => window.lambent.showView(json), state));
     const shown = async (on, part) => {
       await page.evaluate(async ([air, how]) => {
@@ -116,7 +101,7 @@ describe("a sky in the page", () => {
     assert.ok(meanDifference(hazy, shafts, null) > 0.05, "there are shafts");
     const again = await shown(false, { shafts: false });
     assert.equal(meanDifference(clear, again, null), 0);
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("that the page has not is told apart from one that cannot be", async () => {
@@ -186,7 +171,7 @@ describe("a sky in the page", () => {
     await control("Light from a sky").uncheck();
     await follows(before.environment.source);
     assert.deepEqual(await page.evaluate(() => window.lambent.view()), before);
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("is new within a few milliseconds", async () => {

@@ -2,43 +2,26 @@
 // files that were not baked, the full screen, and the page in a folder.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { after, afterEach, before, describe, it } from "node:test";
+import { describe, it } from "node:test";
 import { environmentExr, mattScene } from "../../../web/three-lambent/test/support/scenes.mjs";
 import { withJson } from "./glb.mjs";
 import { decodePng, meanDifference } from "./png.mjs";
-import {
-  drop, launch, openPage, pageFolder, picture, serve, settled, tool, view,
-} from "./session.mjs";
+import { drop, pageFolder, picture, serve, settled, tool, view, visiting } from "./session.mjs";
 
-let folder, server, browser, opened, baked;
-
-before(async () => {
-  folder = mkdtempSync(join(tmpdir(), "lambent-visits-"));
+let baked;
+const visit = visiting("visits", (folder) => {
   writeFileSync(join(folder, "scene.glb"), mattScene);
   writeFileSync(join(folder, "light.exr"), environmentExr);
   execFileSync(tool, ["bake", "scene.glb", "-o", "matt.glb", "--directions", "256", "--quiet"], {
     cwd: folder,
   });
   baked = readFileSync(join(folder, "matt.glb"));
-  server = await serve(folder, ["matt.glb", "light.exr"]);
-  browser = await launch();
+  return ["matt.glb", "light.exr"];
 });
-after(async () => {
-  await browser?.close();
-  await server?.stop();
-  rmSync(folder, { recursive: true });
-});
-afterEach(async () => {
-  await opened?.context.close();
-  opened = undefined;
-});
-
-const open = async (hash = "", options = {}) =>
-  (opened = await openPage(browser, server.url + hash, options)).page;
+const open = (hash = "", options = {}) => visit.open(options, hash);
 const shown = (page) =>
   page.evaluate(() => window.lambent.viewer.current.loaded?.name ?? null);
 const errors = (page) => page.locator(".message.error p").allTextContents();
@@ -59,7 +42,7 @@ describe("a link", () => {
     const saved = await view(page);
     const hash = await copiedHash(page);
     assert.match(hash, /asset=Still\+life/);
-    await opened.context.close();
+    await visit.opened.context.close();
     page = await open(hash);
     assert.deepEqual([await shown(page), await view(page)], ["Still life", saved]);
     // The address is edited: another asset, another view.
@@ -68,7 +51,7 @@ describe("a link", () => {
     await page.waitForFunction(() => window.lambent.viewer.current.loaded.name === "asset.glb");
     await page.evaluate(() => (location.hash = "asset=matt.glb"));
     await page.waitForFunction(() => window.lambent.viewer.current.loaded.name === "matt.glb");
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
     await page.evaluate(() => (location.hash = "src=http://127.0.0.1:9/x.glb"));
     await page.locator(".message.error").waitFor();
     assert.match((await errors(page)).join(), /127\.0\.0\.1:9 .*content policy.*Download/);
@@ -85,7 +68,7 @@ describe("a link", () => {
       [`#view=${encodeURIComponent('{"lambent":"view","environment":{"source":"sky:hue=1"}}')}`,
         /no key 'hue'/],
     ].entries()) {
-      const { page } = opened ?? {};
+      const { page } = visit.opened ?? {};
       if (i >= 2) {
         await page.evaluate((text) => {
           window.lambent.viewer.messages.clearErrors();
@@ -93,11 +76,11 @@ describe("a link", () => {
         }, hash);
         await page.locator(".message.error").waitFor();
       } else {
-        await opened?.context.close();
+        await visit.opened?.context.close();
         await open(hash);
       }
-      assert.match((await errors(opened.page)).join(), words, hash);
-      assert.equal(await shown(opened.page), "matt.glb", hash);
+      assert.match((await errors(visit.opened.page)).join(), words, hash);
+      assert.equal(await shown(visit.opened.page), "matt.glb", hash);
     }
   });
 
@@ -111,7 +94,7 @@ describe("a link", () => {
     assert.match((await notes(page)).join(), /mine\.glb and mine\.exr.*by hand/);
     assert.match(hash, /file=mine\.glb.*light=mine\.exr/);
     const saved = await view(page);
-    await opened.context.close();
+    await visit.opened.context.close();
     page = await open(hash);
     assert.equal(await shown(page), "matt.glb");
     assert.match((await notes(page)).join(), /shows mine\.glb and mine\.exr.*open the files here/);
@@ -121,7 +104,7 @@ describe("a link", () => {
     await drop(page, { name: "mine.exr", bytes: environmentExr });
     await page.waitForFunction(() => window.lambent.view().exposure === 0.7);
     assert.deepEqual(await view(page), saved);
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
     // A light of another server's list.
     const other = { ...saved, exposure: -1, environment: { source: "other.exr" } };
     const link = new URLSearchParams({ asset: "matt.glb", view: JSON.stringify(other) });
@@ -142,10 +125,10 @@ describe("a saved view", () => {
     await change(page, { samples: 9 });
     await settled(page);
     const seen = decodePng(await page.screenshot());
-    writeFileSync(join(folder, "view.json"), JSON.stringify(await view(page)));
+    writeFileSync(join(visit.folder, "view.json"), JSON.stringify(await view(page)));
     execFileSync(tool, ["render", "matt.glb", "--view", "view.json", "--size", "200x200", "-o",
-      "view.png", "--backend", "cpu", "--quiet"], { cwd: folder });
-    const difference = meanDifference(seen, decodePng(readFileSync(join(folder, "view.png"))));
+      "view.png", "--backend", "cpu", "--quiet"], { cwd: visit.folder });
+    const difference = meanDifference(seen, decodePng(readFileSync(join(visit.folder, "view.png"))));
     assert.ok(difference < 0.5, `${difference}`);
   });
 });
@@ -181,7 +164,7 @@ describe("the page", () => {
     await page.evaluate(() => window.lambent.ready);
     assert.deepEqual([await shown(page), await view(page)], ["matt.glb", first]);
     assert.match((await notes(page)).join(), /before is no longer there/);
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("takes changes back and makes them again, a drag as one", async () => {
@@ -216,7 +199,7 @@ describe("the page", () => {
     for (let i = 0; i < 4; ++i) await step("Control+Shift+Z", "matt.glb");
     assert.deepEqual(await step("Control+Shift+Z", "Still life"), other);
     assert.ok(await page.getByRole("button", { name: "Redo" }).isDisabled());
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("shows what is not baked as three.js does, and how to bake it", async () => {
@@ -263,11 +246,11 @@ describe("the page", () => {
     await settled(page);
     assert.equal(await page.locator(".bake").isVisible(), false);
     assert.doesNotMatch((await notes(page)).join(), /stripped/, "that is said no longer");
-    assert.deepEqual(opened.complaints, []);
+    assert.deepEqual(visit.opened.complaints, []);
   });
 
   it("is given what is not baked by lambent view --web as well", async () => {
-    const other = await serve(folder, ["scene.glb"]);
+    const other = await serve(visit.folder, ["scene.glb"]);
     const { assets } = await (await fetch(`${other.url}manifest.json`)).json();
     assert.equal(assets[0].name, "scene.glb");
     assert.equal(await other.stop(), 0);
@@ -307,7 +290,7 @@ describe("the page", () => {
   });
 
   it("from a folder says what to do", async () => {
-    const context = await browser.newContext();
+    const context = await visit.browser.newContext();
     const page = await context.newPage();
     await page.goto(pathToFileURL(join(pageFolder, "index.html")).href);
     const sorry = page.locator(".from-folder");
