@@ -32,9 +32,8 @@ void addWindow(CLI::App& app, std::string& window, const std::string& text, bool
         const auto parsed = light::parseWindowing(given);
         if (!parsed) return parsed.error().message;
         if (!knowsLobes && light::softensLobes(given))
-          return "auto softens how an asset's glossy surfaces show a light, not the light: that is "
-                 "for "
-                 "'lambent render' and 'lambent shade'";
+          return "auto is of 'lambent render' and 'lambent shade': it softens how glossy surfaces "
+                 "show a light, not the light";
         return "";
       })
       ->option_text("WINDOW")
@@ -44,8 +43,7 @@ void addWindow(CLI::App& app, std::string& window, const std::string& text, bool
 
 const std::string kWindows =
     "hann:WIDTH or lanczos:WIDTH in bands, minimal (the least that keeps radiance from falling "
-    "below "
-    "zero), or none";
+    "below zero), or none";
 
 }  // namespace
 

@@ -24,8 +24,7 @@ std::vector<double> minimalRinging(const RgbCoefficients& f);
 /// The least of the family (1−s) + s ĥ_l, 0 ≤ s ≤ 1, with the ĥ_l of sharpestNonNegative, that leaves
 /// f non-negative: s = 1 does wherever f is a non-negative function that was cut to n bands. It keeps
 /// more of small lights than minimalRinging. Between the 100 n² directions that are looked at, dips
-/// stay below .5% of the peak. Costs about as much as two rotations of f for each of ten thousand
-/// vertices: it can follow a light that changes in every frame.
+/// stay below .5% of the peak.
 std::vector<double> leastSoftening(const RgbCoefficients& f);
 /// The same for a zonal function, such as a lobe.
 std::vector<double> leastSoftening(const ZonalMoments& f);

@@ -47,6 +47,23 @@ Range range(const RgbCoefficients& f, int samples) {
   return r;
 }
 
+/// Three lights of so many radians at least over a dim sky, of different colours.
+RgbCoefficients smallLights(int bands, std::uint64_t seed, double leastHalfAngle) {
+  math::Random random(seed, std::uint64_t(bands));
+  RgbCoefficients f(bands);
+  std::vector<float> lobe(coefficientCount(bands));
+  for (int light = 0; light < 3; ++light) {
+    turnTo(cap(bands, leastHalfAngle + 0.5 * random.uniform()),
+           Vec3(math::randomRotation(random.bits()).col(2)), lobe);
+    for (int c = 0; c < 3; ++c) {
+      const float power = random.uniform();
+      for (std::size_t i = 0; i < lobe.size(); ++i) f.channel(c)[i] += power * lobe[i];
+    }
+  }
+  for (int c = 0; c < 3; ++c) f.channel(c)[0] += 0.01f;
+  return f;
+}
+
 TEST(Window, KnownMinimaOfAFiveBandDelta) {
   EXPECT_NEAR(leastOverPeak(std::vector<double>(5, 1.0)), -.1517, 5e-5);
   EXPECT_NEAR(leastOverPeak(hann(5, 5)), -.0381, 5e-5);
@@ -88,19 +105,7 @@ TEST(MinimalRinging, LeavesWhatDoesNotRing) {
 TEST(MinimalRinging, IsNonNegativeAndNoMoreThanNeeded) {
   for (int bands : {2, 3, 5, 7, 10})
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
-      // A few small lights over a dim sky, of different colours.
-      math::Random random(seed, std::uint64_t(bands));
-      RgbCoefficients f(bands);
-      std::vector<float> lobe(coefficientCount(bands));
-      for (int light = 0; light < 3; ++light) {
-        turnTo(cap(bands, 0.1 + 0.5 * random.uniform()),
-               Vec3(math::randomRotation(random.bits()).col(2)), lobe);
-        for (int c = 0; c < 3; ++c) {
-          const float power = random.uniform();
-          for (std::size_t i = 0; i < lobe.size(); ++i) f.channel(c)[i] += power * lobe[i];
-        }
-      }
-      for (int c = 0; c < 3; ++c) f.channel(c)[0] += 0.01f;
+      const RgbCoefficients f = smallLights(bands, seed, 0.1);
       const std::vector<double> window = minimalRinging(f);
       ASSERT_EQ(window[0], 1);
       RgbCoefficients windowed = f;
@@ -176,18 +181,7 @@ TEST(LeastSoftening, OfADeltaIsTheSharpestNonNegativeAndKeepsMoreThanMinimalRing
 TEST(LeastSoftening, LeavesNoneOfSeveralSmallLightsNegative) {
   for (int bands : {2, 3, 4, 5, 7, 10})
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
-      math::Random random(seed, std::uint64_t(bands));
-      RgbCoefficients f(bands);
-      std::vector<float> lobe(coefficientCount(bands));
-      for (int light = 0; light < 3; ++light) {
-        turnTo(cap(bands, 0.05 + 0.5 * random.uniform()),
-               Vec3(math::randomRotation(random.bits()).col(2)), lobe);
-        for (int c = 0; c < 3; ++c) {
-          const float power = random.uniform();
-          for (std::size_t i = 0; i < lobe.size(); ++i) f.channel(c)[i] += power * lobe[i];
-        }
-      }
-      for (int c = 0; c < 3; ++c) f.channel(c)[0] += 0.01f;
+      const RgbCoefficients f = smallLights(bands, seed, 0.05);
       RgbCoefficients windowed = f;
       applyWindow(leastSoftening(f), windowed);
       const Range r = range(windowed, 40000);

@@ -230,8 +230,7 @@ class LeastShare {
 /**
  * The least of the family (1−s) + s ĥ_l, 0 ≤ s ≤ 1, with the ĥ_l of {@link sharpestNonNegative}, that
  * leaves the radiance of every channel non-negative, but for dips below .5% of the peak between the
- * directions that are looked at. It keeps more of small lights than {@link minimalRingingWindow}, and
- * can follow a light that changes in every frame.
+ * directions that are looked at. It keeps more of small lights than {@link minimalRingingWindow}.
  *
  * @param coefficients bands² × 3 numbers: [coefficient][channel]
  */
