@@ -3,7 +3,9 @@
 //
 // Before this text stand: harmonics() and kCoefficients (sh.glsl); incident.glsl.
 
-vec3 lobeRadiance(vec3 reflected) {
+uniform vec4 lobeGain;  // shade::LobeGain
+
+vec3 lobeRadiance(vec3 reflected, vec3 normal) {
   float y[kCoefficients];
   harmonics(reflected, y);
   vec4 sums[3];
@@ -15,5 +17,7 @@ vec3 lobeRadiance(vec3 reflected) {
                         LAMBENT_FACTOR(4 * i + 2), LAMBENT_FACTOR(4 * i + 3)) *              \
                    incident[i];
   LAMBENT_EACH_GROUP(LAMBENT_ADD_LOBE)
-  return sumOfChannels(sums[0], sums[1], sums[2]);
+  float mu = clamp(dot(reflected, normal), 0.0, 1.0);
+  float gain = 1.0 + mu * (lobeGain.x + mu * (lobeGain.y + mu * (lobeGain.z + mu * lobeGain.w)));
+  return gain * sumOfChannels(sums[0], sums[1], sums[2]);
 }

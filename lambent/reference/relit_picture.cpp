@@ -78,10 +78,10 @@ struct LitScene {
     if (patch != patches.end() && !material.isMirror())
       return patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(distance));
     const Rgb base = scene::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
-    const Vec3 reflected = shade::mirrored(toViewer, point.normal);
     if (material.isMirror())
       return material.mirror * base *
-             shownByMirror(point, reflected, {sight.sun, nullptr, distance, sight.mirrors + 1});
+             shownByMirror(point, shade::mirrored(toViewer, point.normal),
+                           {sight.sun, nullptr, distance, sight.mirrors + 1});
     const auto* surface = std::get_if<Surface>(&asset.transfer.meshes[hit.mesh]);
     if (!surface) return Rgb::Zero();
 
@@ -91,8 +91,8 @@ struct LitScene {
              : shade::ReceiverWeights::ofTriangle(mesh.triangles[hit.triangle], hit.u, hit.v);
     const shade::LitMesh& lit = meshes[hit.mesh];
     const Rgb diffuse = lit.diffuseAt(at);
-    Rgb sum =
-        (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) + lit.glossyAt(at, reflected) * base;
+    Rgb sum = (lit.albedoOutside ? Rgb(diffuse * base) : diffuse) +
+              lit.glossyAt(at, toViewer, point.normal) * base;
     if (!sight.sun) return sum;
     if (const auto direct =
             shade::kindWithoutBounces(asset.transfer.meshes[hit.mesh], options.showing))

@@ -23,6 +23,7 @@
 #include "lambent/sh/rotation.h"
 #include "lambent/sh/window.h"
 #include "lambent/sh/zonal.h"
+#include "lambent/shade/lobe.h"
 
 namespace lambent::render {
 namespace {
@@ -190,10 +191,16 @@ TEST(ConventionTable, LibraryHasItsZonalFunctions) {
   for (const Json& entry : table().at("lobeMoments"))
     expectNumbers(sh::phongLobe(bands, entry.at("exponent").get<double>()), entry.at("values"),
                   1e-10, "lobe");
-  for (const Json& entry : table().at("softLobes"))
-    expectNumbers(sh::leastSoftening(sh::phongLobe(entry.at("bands").get<int>(),
-                                                   entry.at("exponent").get<double>())),
-                  entry.at("window"), 1e-9, "soft lobe");
+  for (const Json& entry : table().at("softLobes")) {
+    const int n = entry.at("bands").get<int>();
+    const double exponent = entry.at("exponent").get<double>();
+    expectNumbers(sh::leastSoftening(sh::phongLobe(n, exponent)), entry.at("window"), 1e-9,
+                  "soft lobe");
+    const transfer::Lobe lobe{Rgb::Ones(), float(exponent)};
+    const shade::LobeGain gain = shade::lobeGain(n, lobe, {}, transfer::Kind::Shadowed);
+    for (const Json& at : entry.at("gain"))
+      EXPECT_NEAR(gain.at(at.at(0).get<float>()), at.at(1).get<float>(), 2e-4) << n << exponent;
+  }
   for (const Json& entry : table().at("disc")) {
     const double diameter = entry.at("diameter").get<double>() * kPi / 180.0;
     const sh::ZonalMoments moments = sh::cap(bands, diameter / 2);

@@ -92,6 +92,7 @@ Result<GlSurfaces::Lit> GlSurfaces::lightOf(std::uint32_t mesh, const shade::Sho
     Result<Relit> made = transfer.lobe(*response.glossy, receivers, showing);
     if (!made) return made.error();
     lit.lobe = std::move(*made);
+    setGain(lit, showing);
   }
   return lit;
 }
@@ -282,8 +283,16 @@ void GlSurfaces::setLight(std::vector<Lit> light) {
 
 void GlSurfaces::setLobe(const shade::Showing& showing) {
   for (Lit& lit : lit_)
-    if (lit.lobe.product.name())
+    if (lit.lobe.product.name()) {
       TransferOnGpu::setLobe(lit.lobe, *partsOf(lit.mesh)->glossy, showing);
+      setGain(lit, showing);
+    }
+}
+
+void GlSurfaces::setGain(Lit& lit, const shade::Showing& showing) const {
+  const transfer::Glossy<transfer::Numbers>& glossy = *partsOf(lit.mesh)->glossy;
+  lit.gain = shade::lobeGain(glossy.matrices.outBands, glossy.lobe, showing,
+                             shade::kindShown(asset_->transfer.meshes[lit.mesh], showing));
 }
 
 /// Two sides of a sheet have the same depth: what faces away would be drawn over what is seen.
@@ -312,6 +321,10 @@ void GlSurfaces::draw(const GlView& view, const Around& around, const GlBaseColo
     program.set("mirror", material.mirror.x(), material.mirror.y(), material.mirror.z());
     program.set("grid", grid ? grid->width : 0, grid ? grid->height : 0);
     program.set("rows", draw.rows.begin, draw.rows.end);
+    if (draw.lit) {
+      const auto& [c0, c1, c2, c3] = lit_[*draw.lit].gain.coefficients;
+      program.set("lobeGain", c0, c1, c2, c3);
+    }
     const bool lit = draw.kind == SurfaceKind::Vertices || draw.kind == SurfaceKind::Texels;
     const auto direct = lit && view.sun
                             ? shade::kindWithoutBounces(asset_->transfer.meshes[draw.mesh], showing)

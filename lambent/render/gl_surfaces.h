@@ -19,6 +19,7 @@
 #include "lambent/render/gl_sun_map.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
+#include "lambent/shade/lobe.h"
 #include "lambent/shade/showing.h"
 
 namespace lambent::render {
@@ -40,7 +41,8 @@ class GlSurfaces {
   struct Lit {
     std::uint32_t mesh = 0;
     Relit diffuse, lobe;
-    Relit sunShare;  ///< what is to be taken out of `diffuse` under a sharp Sun, if anything
+    shade::LobeGain gain;  ///< of what `lobe` shows
+    Relit sunShare;        ///< what is to be taken out of `diffuse` under a sharp Sun, if anything
   };
   /// The light of all pieces under other transfer, to be given to setLight.
   Result<std::vector<Lit>> lightUnder(const shade::Showing& showing, TransferOnGpu& transfer) const;
@@ -106,6 +108,7 @@ class GlSurfaces {
 
   Result<Lit> lightOf(std::uint32_t mesh, const shade::Showing& showing, const Response& response,
                       const std::vector<std::uint32_t>& receivers, TransferOnGpu& transfer) const;
+  void setGain(Lit& lit, const shade::Showing& showing) const;
   Status addTexels(std::uint32_t mesh, const transfer::AtTexels& grid, const Response& response,
                    std::size_t perReceiver, const shade::Showing& showing, TransferOnGpu& transfer,
                    std::vector<std::pair<RowBand, std::size_t>>& litRows);

@@ -5,8 +5,6 @@
 
 #include "lambent/scene/texel_map.h"
 #include "lambent/sh/basis.h"
-#include "lambent/sh/window.h"
-#include "lambent/sh/zonal.h"
 #include "lambent/shade/shade.h"
 #include "lambent/shade/transfer_matrices.h"
 #include "lambent/shade/unshadowed.h"
@@ -45,11 +43,11 @@ Rgb LitMesh::diffuseAt(const ReceiverWeights& at) const {
   return sum;
 }
 
-Rgb LitMesh::glossyAt(const ReceiverWeights& at, const Vec3& reflected) const {
+Rgb LitMesh::glossyAt(const ReceiverWeights& at, const Vec3& toViewer, const Vec3& normal) const {
   Rgb sum = Rgb::Zero();
   if (lobe.empty()) return sum;
   std::array<float, sh::coefficientCount(sh::kMaxBands)> y;
-  sh::evaluate(lobeBands, reflected, y);
+  sh::evaluate(lobeBands, mirrored(toViewer, normal), y);
   const int coefficients = sh::coefficientCount(lobeBands);
   for (int k = 0; k < at.count; ++k) {
     const float* value = lobe.data() + std::size_t(at.index[k]) * coefficients * 3;
@@ -61,28 +59,10 @@ Rgb LitMesh::glossyAt(const ReceiverWeights& at, const Vec3& reflected) const {
     }
     sum += at.weight[k] * Rgb(r, g, b);
   }
-  return sum;
+  return sum * gain.at(normal.dot(toViewer));
 }
 
-std::vector<float> lobeFactors(int bands, const transfer::Lobe& lobe, const Showing& showing) {
-  sh::ZonalMoments moments = sh::phongLobe(bands, showing.lobeExponent.value_or(lobe.exponent));
-  if (showing.softLobes) {
-    const std::vector<double> window = sh::leastSoftening(moments);
-    for (int l = 0; l < bands; ++l) moments[l] *= window[l];
-  }
-  std::vector<float> factors;
-  for (int i = 0; i < sh::coefficientCount(bands); ++i)
-    factors.push_back(float(moments[sh::bandOf(i)]));
-  return factors;
-}
-
-sh::RgbCoefficients softened(const sh::RgbCoefficients& light) {
-  sh::RgbCoefficients result = light;
-  sh::applyWindow(sh::leastSoftening(light), result);
-  return result;
-}
-
-LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
+LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response, transfer::Kind kind,
                   const sh::RgbCoefficients& light, const Showing& showing) {
   LitMesh lit;
   if (const auto& diffuse = response.diffuse) {
@@ -96,6 +76,7 @@ LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
     lit.lobeBands = glossy->matrices.outBands;
     const int rows = sh::coefficientCount(lit.lobeBands);
     const std::vector<float> factors = lobeFactors(lit.lobeBands, lobe, showing);
+    lit.gain = lobeGain(lit.lobeBands, lobe, showing, kind);
     const std::vector<float> incident =
         applyMatrices(glossy->matrices, showing.softLobes ? softened(light) : light);
     const std::size_t receivers = incident.size() / (3 * std::size_t(rows));
@@ -114,10 +95,11 @@ LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
                      const std::optional<SharpSun>& sun) {
   const transfer::EncodedMesh& encoded = asset.transfer.meshes[mesh];
   if (!std::holds_alternative<transfer::Surface<transfer::Numbers>>(encoded)) return {};
-  LitMesh lit = lightMesh(*responseUnder(asset, mesh, kindShown(encoded, showing)), light, showing);
-  const auto kind = sun ? kindWithoutBounces(encoded, showing) : std::nullopt;
-  if (!kind) return lit;
-  const auto direct = responseUnder(asset, mesh, *kind);
+  const transfer::Kind kind = kindShown(encoded, showing);
+  LitMesh lit = lightMesh(*responseUnder(asset, mesh, kind), kind, light, showing);
+  const auto directKind = sun ? kindWithoutBounces(encoded, showing) : std::nullopt;
+  if (!directKind) return lit;
+  const auto direct = responseUnder(asset, mesh, *directKind);
   std::vector<float> share(lit.diffuse.size());
   DiffuseShader(direct->diffuse->vectors).shade(sun->share, share);
   for (std::size_t i = 0; i < share.size(); ++i) lit.diffuse[i] -= share[i];

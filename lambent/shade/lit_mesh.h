@@ -10,6 +10,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/scene/scene.h"
 #include "lambent/sh/coefficients.h"
+#include "lambent/shade/lobe.h"
 #include "lambent/shade/sharp_sun.h"
 #include "lambent/shade/showing.h"
 #include "lambent/transfer/field.h"
@@ -36,25 +37,21 @@ struct LitMesh {
   bool albedoOutside = false;  ///< the diffuse part still lacks the base colour
   std::vector<float> lobe;     ///< α_i G_i (M L)_i · k, [receiver][coefficient][3], or empty
   int lobeBands = 0;
+  LobeGain gain;
 
   Rgb diffuseAt(const ReceiverWeights& at) const;
-  /// Glossy exit radiance (eq. 12) for a mirrored view direction, without the base colour.
-  Rgb glossyAt(const ReceiverWeights& at, const Vec3& reflected) const;
+  /// Glossy exit radiance (eq. 12) towards a viewer, without the base colour. Directions are unit.
+  Rgb glossyAt(const ReceiverWeights& at, const Vec3& toViewer, const Vec3& normal) const;
 };
 
-LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response,
+/// What a response that was simulated, or is made up, under a kind sends out.
+LitMesh lightMesh(const transfer::SurfaceResponse<transfer::Numbers>& response, transfer::Kind kind,
                   const sh::RgbCoefficients& light, const Showing& showing);
 /// A bare surface as `showing` has it, or black. Under a sharp Sun without what falls from it on
 /// the diffuse surface directly: that is the caller's to add (sharp_sun.h).
 LitMesh lightSurface(const asset::Asset& asset, std::uint32_t mesh,
                      const sh::RgbCoefficients& light, const Showing& showing,
                      const std::optional<SharpSun>& sun);
-
-/// α_i G_i for every coefficient: the lobe's moments, each band's for all its coefficients; softened
-/// where lobes are.
-std::vector<float> lobeFactors(int bands, const transfer::Lobe& lobe, const Showing& showing);
-/// The light that reaches soft lobes.
-sh::RgbCoefficients softened(const sh::RgbCoefficients& light);
 
 /// v mirrored about the normal; both unit, both pointing away from the surface.
 inline Vec3 mirrored(const Vec3& v, const Vec3& normal) {

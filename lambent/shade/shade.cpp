@@ -125,14 +125,14 @@ std::vector<Rgb> surfaceRadiance(const asset::Asset& asset, std::uint32_t mesh,
   const transfer::Receivers& receivers =
       *std::get<transfer::Surface<Numbers>>(asset.transfer.meshes[mesh]).receivers;
   const transfer::Kind kind = kindShown(asset.transfer.meshes[mesh], view.showing);
-  const LitMesh lit = lightMesh(*responseUnder(asset, mesh, kind), light, view.showing);
+  const LitMesh lit = lightMesh(*responseUnder(asset, mesh, kind), kind, light, view.showing);
   const std::vector<Rgb> base = receiverBaseColors(asset.scene, mesh, receivers);
   return atAll(receivers, [&](std::size_t p) -> Rgb {
     const ReceiverWeights at = ReceiverWeights::one(std::uint32_t(p));
     const Rgb outside = base.empty() ? Rgb(Rgb::Ones()) : base[p];
-    const Vec3 reflected = mirrored(directionToViewer(view, receivers, p), receivers.normals[p]);
+    const Vec3 toViewer = directionToViewer(view, receivers, p);
     return lit.diffuseAt(at) * (lit.albedoOutside ? outside : Rgb(Rgb::Ones())) +
-           lit.glossyAt(at, reflected) * outside;
+           lit.glossyAt(at, toViewer, receivers.normals[p]) * outside;
   });
 }
 

@@ -1,5 +1,6 @@
 #include "lambent/shade/shade.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -110,9 +111,9 @@ TEST(DiffuseShader, CutsOrPadsALightOfOtherBands) {
 }
 
 TEST(LitMesh, IsBlackWithoutDiffuseTransfer) {
-  const LitMesh lit = lightMesh({}, randomLight(2, 1), {});
+  const LitMesh lit = lightMesh({}, Kind::Shadowed, randomLight(2, 1), {});
   EXPECT_TRUE((lit.diffuseAt(ReceiverWeights::one(0)) == 0.0f).all());
-  EXPECT_TRUE((lit.glossyAt(ReceiverWeights::one(0), Vec3::UnitZ()) == 0.0f).all());
+  EXPECT_TRUE((lit.glossyAt(ReceiverWeights::one(0), Vec3::UnitZ(), Vec3::UnitZ()) == 0.0f).all());
 }
 
 TEST(Kernels, EveryInstructionSetGivesTheSameDiffuseRadiance) {
@@ -233,8 +234,10 @@ TEST(Kernels, EveryInstructionSetGivesTheSameTransferredRadiance) {
 }
 
 /// A mesh whose vertices are the receivers.
-asset::Asset assetOf(transfer::SharedReceivers receivers, Response response) {
+asset::Asset assetOf(transfer::SharedReceivers receivers, Response response,
+                     Kind kind = Kind::Shadowed) {
   asset::Asset asset;
+  asset.transfer.kind = kind;
   asset.scene.materials.emplace_back();
   scene::Mesh mesh;
   mesh.positions = receivers->positions;
@@ -252,20 +255,26 @@ Response& responseOf(asset::Asset& asset) {
 
 const Rgb kGlossy(0.9f, 0.5f, 0.2f);
 
+asset::Asset glossyPoint(const Vec3& normal, const transfer::Lobe& lobe, int bands,
+                         const std::vector<float>& matrix, Kind kind) {
+  asset::Asset asset =
+      assetOf(looking({normal}),
+              {{},
+               transfer::Glossy<Numbers>{
+                   lobe, {bands, bands, 1, transfer::encode(matrix, Encoding::Float32)}}},
+              kind);
+  asset.scene.materials[0].diffuse = Rgb::Zero();
+  asset.scene.materials[0].glossy = lobe.reflectance;
+  return asset;
+}
+
 /// A glossy receiver that sees its whole surroundings: the identity as transfer matrix.
 asset::Asset openGlossyPoint(int bands, const Vec3& normal, float exponent,
                              const Rgb& reflectance = kGlossy) {
   const int n = coefficientCount(bands);
   std::vector<float> identity(std::size_t(n) * n, 0.0f);
   for (int i = 0; i < n; ++i) identity[std::size_t(i) * n + i] = 1.0f;
-  asset::Asset asset = assetOf(
-      looking({normal}), {{},
-                          transfer::Glossy<Numbers>{
-                              {reflectance, exponent},
-                              {bands, bands, 1, transfer::encode(identity, Encoding::Float32)}}});
-  asset.scene.materials[0].diffuse = Rgb::Zero();
-  asset.scene.materials[0].glossy = reflectance;
-  return asset;
+  return glossyPoint(normal, {reflectance, exponent}, bands, identity, Kind::Unshadowed);
 }
 
 // Equation 12 against what it stands for: k ∫ L(s) (r+1)/2π max(0, s·R)^r ds, by quadrature. With
@@ -328,6 +337,58 @@ TEST(ExitRadiance, SoftLobesShowNothingNegativeOfASmallLight) {
       }
     }
   }
+}
+
+/// Of a glossy receiver with nothing around it but a horizon, under an even light of radiance 1.
+double shownUnderEvenLight(int bands, float exponent, double cosine, const Showing& showing,
+                           Kind kind = Kind::Shadowed) {
+  const int n = coefficientCount(bands);
+  std::vector<double> horizon(n);
+  sh::turnTo(sh::hemisphere(bands), Vec3d::UnitZ(), std::span<double>(horizon));
+  const double constant = std::sqrt(1 / (4 * kPi));
+  std::vector<float> matrix(std::size_t(n) * n, 0.0f);
+  for (int i = 0; i < n; ++i) matrix[std::size_t(i) * n] = float(constant * horizon[i]);
+  const asset::Asset asset =
+      glossyPoint(Vec3::UnitZ(), {Rgb::Ones(), exponent}, bands, matrix, Kind::Shadowed);
+  sh::RgbCoefficients light(bands);
+  for (int c = 0; c < 3; ++c) light.channel(c)[0] = float(1 / constant);
+  ReceiverView view = seenFrom(Vec3(float(std::sqrt(1 - cosine * cosine)), 0, float(cosine)));
+  view.showing = showing;
+  view.showing.surfaces = kind;
+  return exitRadiance(asset, 0, light, view)[0].x();
+}
+
+// Softened lobes reach below the horizon: what they show is as bright as the material's lobe is, whose
+// share above the horizon is by quadrature here, circle by circle about the lobe's axis.
+TEST(ExitRadiance, SoftLobesLoseNoLightBelowTheHorizon) {
+  const auto shareAbove = [](double exponent, double cosine) {
+    constexpr int kSteps = 4000;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double z = std::pow((i + 0.5) / kSteps, 1 / (exponent + 1));
+      const double across = std::sqrt((1 - z * z) * (1 - cosine * cosine));
+      sum += across > 0 ? std::acos(std::clamp(-z * cosine / across, -1.0, 1.0)) / kPi : 1;
+    }
+    return sum / kSteps;
+  };
+  for (const int bands : {2, 3, 4, 5, 6, 8, 10})
+    for (const float exponent : {0.0f, 1.0f, 4.0f, 12.0f, 40.0f, 1000.0f})
+      for (const double cosine : {0.05, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+        const double shown = shownUnderEvenLight(bands, exponent, cosine, {});
+        EXPECT_NEAR(shown / shareAbove(std::min(double(exponent), 3.0 * bands), cosine), 1, 0.025)
+            << bands << " bands, exponent " << exponent << ", cosine " << cosine;
+      }
+}
+
+TEST(ExitRadiance, LobesAsTheyAreAndWithoutAHorizonAreNotMadeBrighter) {
+  const sh::ZonalMoments lobe = sh::phongLobe(5, 20), horizon = sh::hemisphere(5);
+  Showing whole;
+  whole.softLobes = false;
+  double expected = 0;
+  for (int l = 0; l < 5; ++l)
+    expected += (2 * l + 1) / (4 * kPi) * lobe[l] * horizon[l] * std::legendre(unsigned(l), 0.5);
+  EXPECT_NEAR(shownUnderEvenLight(5, 20, 0.5, whole), expected, 1e-5);
+  EXPECT_NEAR(shownUnderEvenLight(5, 20, 0.5, {}, Kind::Unshadowed), 1, 1e-5);
 }
 
 TEST(ExitRadiance, SeesAlongTheNormalWithoutAnEye) {

@@ -22,8 +22,9 @@ struct Showing {
   /// Few bands cannot hold a narrow lobe, nor a small light: both ring, and polished surfaces show dark
   /// and coloured rings around every highlight. On: lobes, and the light that reaches them, are
   /// softened by the least that leaves neither negative (sh::leastSoftening), so that nothing of what
-  /// they show is. Off: as the harmonics have them, for comparison with other renderers. Diffuse
-  /// surfaces are the same either way.
+  /// they show is, and what a softer lobe loses below the horizon is made up for (lobe.h). Off: as the
+  /// harmonics have them, for comparison with other renderers. Diffuse surfaces are the same either
+  /// way.
   bool softLobes = true;
   /// Off: meso-structure everywhere as seen from straight above, the centre of the view samples
   /// (the one in the middle or, where their number is even, the mean of the four around it), so

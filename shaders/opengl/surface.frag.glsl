@@ -52,10 +52,18 @@ vec2 uv() { return vec2(normalU.w, colorV.w); }
 
 vec3 base() { return baseColor(colorV.rgb, uv()); }
 
-vec3 reflectedView() {
-  vec3 normal = shadingNormal(normalU.xyz, normalize(normals[gl_PrimitiveID].xyz));
+vec3 normalSeen() { return shadingNormal(normalU.xyz, normalize(normals[gl_PrimitiveID].xyz)); }
+
+vec3 reflectedView(vec3 normal) {
   return reflectAbout(eye.w > 0.0 ? normalize(eye.xyz - position) : eye.xyz, normal);
 }
+
+#if LAMBENT_GROUPS > 0
+vec3 glossyRadiance() {
+  vec3 normal = normalSeen();
+  return base() * lobeRadiance(reflectedView(normal), normal);
+}
+#endif
 
 #if LAMBENT_KIND < 2
 float sunMapDepth(ivec2 texel) { return texelFetch(sunMap, texel, 0).r; }
@@ -86,7 +94,7 @@ vec3 litRadiance() {
                                             vertices[corner.y].positionU.xyz,
                                             vertices[corner.z].positionU.xyz));
 #endif
-  sum += base() * lobeRadiance(reflectedView());
+  sum += glossyRadiance();
 #endif
   return sum;
 }
@@ -118,7 +126,7 @@ vec3 litRadiance() {
   }
 #if LAMBENT_GROUPS > 0
   interpolateIncident(texels.receiver, texels.weight);
-  sum += base() * lobeRadiance(reflectedView());
+  sum += glossyRadiance();
 #endif
   return sum;
 }
@@ -134,7 +142,7 @@ float capturePhase() {
 }
 
 vec3 litRadiance() {
-  vec3 direction = reflectedView(), shown = vec3(0.0);
+  vec3 direction = reflectedView(normalSeen()), shown = vec3(0.0);
   vec3 place;
   vec4 met = capturedAlong(position, direction, place);
   if (met.a < 1.0) {

@@ -174,6 +174,40 @@ def soft_lobe(bands, exponent):
     return [1 - share + share * each for each in soft]
 
 
+def share_above_horizon(exponent, cosine, steps=20_000):
+    """Of (r+1)/2pi max(0, cos)^r about an axis: what lies above a horizon to whose pole it has `cosine`.
+    Circles about the axis, as many of them as the lobe gives them weight."""
+    total = 0.0
+    for i in range(steps):
+        z = ((i + 0.5) / steps) ** (1 / (exponent + 1))
+        across = math.sqrt((1 - z * z) * (1 - cosine * cosine))
+        total += math.acos(max(-1, min(1, -z * cosine / across))) / math.pi if across > 0 else 1
+    return total / steps
+
+
+def soft_gain(bands, exponent):
+    """[mu, 1 + sum c_k mu^(k+1)]: what makes up for what a softened lobe has below the horizon."""
+    window, lobe = soft_lobe(bands, exponent), lobe_moments(bands, exponent)
+    if window[-1] == 1:
+        return [[mu, 1.0] for mu in (0.0, 1.0)]
+    nodes = [0.5 + 0.5 * math.cos(2 * math.pi * i / 7) for i in range(4)]
+    result = [0.0] * 4
+    for i, mu in enumerate(nodes):
+        above = 0.0
+        for l in range(bands):
+            polynomial = legendre(l)
+            horizon = 2 * math.pi * sum(c / (k + 1) for k, c in enumerate(polynomial))
+            above += ((2 * l + 1) / (4 * math.pi) * window[l] * lobe[l] * horizon *
+                      polynomial_value(polynomial, mu))
+        value = (share_above_horizon(min(exponent, 3 * bands), mu) / above - 1) / mu
+        lagrange = [value]
+        for j, other in enumerate(nodes):
+            if j != i:
+                lagrange = times(lagrange, [-other / (mu - other), 1 / (mu - other)])
+        result = [a + b for a, b in zip(result, lagrange)]
+    return [[mu, polynomial_value([1, *result], mu)] for mu in (0.0, 0.1, 0.3, 0.6, 0.9, 1.0)]
+
+
 def lat_long(d):
     x, y, z = d
     return [math.atan2(z, x) / (2 * math.pi) + 0.5, 0.5 - math.asin(max(-1, min(1, y))) / math.pi]
@@ -220,7 +254,7 @@ def table():
                     if abs(d[1]) < 1 and not (d[2] == 0 and d[0] < 0)],
         "cosineFactors": cosine_factors(10),
         "lobeMoments": [{"exponent": r, "values": lobe_moments(10, r)} for r in (1, 4, 16, 50)],
-        "softLobes": [{"bands": n, "exponent": r, "window": soft_lobe(n, r)}
+        "softLobes": [{"bands": n, "exponent": r, "window": soft_lobe(n, r), "gain": soft_gain(n, r)}
                       for n, r in ((1, 4), (2, 50), (4, 16), (5, 2), (5, 80), (10, 50), (10, 400))],
         "disc": [{"diameter": d, "zonal": disc_zonal(10, d)} for d in (5, 60, 180)],
         "filmic": [[x, filmic(x)] for x in (-1, 0, 0.01, 0.18, 0.5, 1, 4, 16, 1000)],

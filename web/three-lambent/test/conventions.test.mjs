@@ -15,6 +15,7 @@ import {
   srgbDecode,
   srgbEncode,
 } from "../dist/index.js";
+import { shownLobe } from "../dist/sh/lobe.js";
 
 const table = JSON.parse(
   readFileSync(new URL("../../../tests/conventions/table.json", import.meta.url), "utf8"),
@@ -43,8 +44,15 @@ it("cosine factors and lobe moments", () => {
   near(clampedCosineMoments(table.cosineFactors.length), table.cosineFactors, 1e-12, "cosine");
   for (const { exponent, values } of table.lobeMoments)
     near(phongLobeMoments(values.length, exponent), values, 1e-12, `lobe ${exponent}`);
-  for (const { bands, exponent, window } of table.softLobes)
-    near(leastSofteningOfZonal(phongLobeMoments(bands, exponent)), window, 1e-9, `soft ${exponent}`);
+  for (const { bands, exponent, window, gain } of table.softLobes) {
+    const plain = phongLobeMoments(bands, exponent);
+    near(leastSofteningOfZonal(plain), window, 1e-9, `soft ${exponent}`);
+    const shown = shownLobe(bands, exponent, { soft: true, horizon: true });
+    near(shown.moments, plain.map((moment, l) => window[l] * moment), 1e-9, `shown ${exponent}`);
+    const { gain: c } = shown;
+    const found = gain.map(([mu]) => 1 + mu * (c[0] + mu * (c[1] + mu * (c[2] + mu * c[3]))));
+    near(found, gain.map(([, value]) => value), 2e-4, `gain ${exponent}`);
+  }
 });
 
 it("discs", () => {

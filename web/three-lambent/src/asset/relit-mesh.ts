@@ -4,6 +4,7 @@
 import {
   BufferAttribute,
   Vector3,
+  Vector4,
   type CubeTexture,
   type IUniform,
   type Mesh,
@@ -32,8 +33,7 @@ import { incidentGroups } from "../materials/group-macros.js";
 import { RelitMaterial, type RelitShaders } from "../materials/relit-material.js";
 import { patchShaders, surfaceShaders } from "../materials/relit-shaders.js";
 import { bandOf } from "../sh/basis.js";
-import { leastSofteningOfZonal } from "../sh/window.js";
-import { phongLobeMoments } from "../sh/zonal.js";
+import { shownLobe } from "../sh/lobe.js";
 import type { AssetSource } from "./asset-source.js";
 import { kindOf, macroOf, type TransferChoice } from "./choices.js";
 import type { MeshSource } from "./mesh-source.js";
@@ -106,6 +106,9 @@ export class RelitMesh {
     captureFrom: { value: new Vector3() },
     hasCapture: { value: false },
   };
+  /** Of shaders/lobe.glsl. */
+  private readonly lobeGain = { value: new Vector4() };
+  private lobeHasHorizon = true;
   /** Whether something hides a sharp Sun from what is shown. */
   needsSunMap = false;
 
@@ -291,6 +294,8 @@ export class RelitMesh {
       );
       uniforms.incidentLit = { value: lit.target.texture };
       uniforms.incidentALine = { value: lit.receiversALine };
+      uniforms.lobeGain = this.lobeGain;
+      this.lobeHasHorizon = kind !== "unshadowed";
     }
     if (grid) uniforms.grid = { value: Int32Array.of(grid.width, grid.height) };
     const fetch = !grid && lobeBands > 0 && this.mustFetch(renderer, lobeBands ** 2);
@@ -396,10 +401,12 @@ export class RelitMesh {
       const factors = new Float32Array(4 * Math.ceil(texture.rows / 4)).fill(1);
       if (glossy) {
         const exponent = lobeExponent ?? this.transfer!.matrices!.lobeExponent;
-        const moments = phongLobeMoments(Math.sqrt(texture.rows), exponent);
-        const window = softLobes ? leastSofteningOfZonal(moments) : moments.map(() => 1);
-        for (let i = 0; i < texture.rows; ++i)
-          factors[i] = window[bandOf(i)] * moments[bandOf(i)];
+        const lobe = shownLobe(Math.sqrt(texture.rows), exponent, {
+          soft: softLobes,
+          horizon: this.lobeHasHorizon,
+        });
+        for (let i = 0; i < texture.rows; ++i) factors[i] = lobe.moments[bandOf(i)];
+        this.lobeGain.value.fromArray(lobe.gain);
       }
       scales?.forEach((scale, i) => (factors[i] *= scale));
       pass.run(renderer, screen, lights[light], factors);

@@ -121,7 +121,7 @@ void main() {
 #elif LAMBENT_FETCH
     interpolateIncident(ivec3(corners), barycentric);
 #endif
-    gl_FragColor.rgb += base * lobeRadiance(reflected);
+    gl_FragColor.rgb += base * lobeRadiance(reflected, point.normal);
 #endif
 #endif
   }
