@@ -17,6 +17,8 @@ export { LambentAsset } from "./asset/asset.js";
 export type { AssetInfo, AssetKind } from "./asset/info.js";
 export type { AirOptions } from "./asset/asset-air.js";
 export type { TransferChoice } from "./asset/choices.js";
+export type { LambentNodes } from "./gpu/nodes.js";
+export type { AnyRenderer, NodeRenderer } from "./gpu/renderer.js";
 export type { IncidentMode } from "./asset/asset-source.js";
 export { LambentFormatError } from "./format/description.js";
 export {

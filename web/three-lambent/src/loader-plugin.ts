@@ -7,6 +7,7 @@ import { AssetSource, type IncidentMode } from "./asset/asset-source.js";
 import type { MeshEntry } from "./asset/mesh-source.js";
 import { coverageOf, kWhole } from "./materials/coverage.js";
 import { reflectanceOf } from "./asset/reflectance.js";
+import type { LambentNodes } from "./gpu/nodes.js";
 import { kExtensionName, LambentFormatError, type AssetDescription } from "./format/description.js";
 import { hasTransfer, readTransfer } from "./format/read.js";
 
@@ -17,6 +18,11 @@ export interface LambentLoaderOptions {
    * vertices for each triangle), "auto": varyings, if the device has enough. Default "auto".
    */
   incident?: IncidentMode;
+  /**
+   * `nodes` of "three-lambent/webgpu", by which WebGPURenderer draws the asset too. Default null:
+   * WebGLRenderer alone does.
+   */
+  nodes?: LambentNodes | null;
 }
 
 /** What GLTFLoader makes of a baked file. */
@@ -97,7 +103,7 @@ export class LambentLoaderPlugin {
     });
     // What no scene shows, nobody can relight.
     gltf.userData ??= {};
-    const source = new AssetSource(description, entries, this.options.incident ?? "auto");
+    const source = new AssetSource(description, entries, this.options.incident ?? "auto", this.options.nodes ?? null);
     const meshes = entries.map(({ mesh }) => mesh);
     gltf.userData.lambent = new LambentAsset(gltf.scene, source, meshes);
     return null;

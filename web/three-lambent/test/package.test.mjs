@@ -57,6 +57,7 @@ describe("the package", () => {
     const kFolders = {
       "gltf-transform": ["@gltf-transform/core"],
       react: ["react", "@react-three/fiber", "three/addons/loaders/GLTFLoader.js"],
+      webgpu: ["three/tsl", "three/webgpu"],
     };
     const found = new Set();
     for (const file of execFileSync("find", ["dist", "-name", "*.js"], {

@@ -2,6 +2,7 @@
 
 import type { WebGLRenderer } from "three";
 import type { AssetDescription } from "../format/description.js";
+import type { LambentNodes } from "../gpu/nodes.js";
 import { SharedThings } from "../gpu/shared.js";
 import { MeshSource, type MeshEntry } from "./mesh-source.js";
 
@@ -19,6 +20,8 @@ export class AssetSource {
     readonly description: AssetDescription,
     entries: readonly MeshEntry[],
     readonly incident: IncidentMode,
+    /** For WebGPURenderer. */
+    readonly nodes: LambentNodes | null = null,
   ) {
     this.meshes = entries.map(
       (entry, i) => new MeshSource(entry, description.primitives.get(entry.key) ?? null, i),

@@ -12,7 +12,7 @@ import {
 } from "three";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { canCapture } from "../gpu/local-capture.js";
-import { checkRenderer } from "../gpu/renderer.js";
+import { checkRenderer, isNodeRenderer, type AnyRenderer } from "../gpu/renderer.js";
 import { checkLight } from "../light/check.js";
 import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
 import type { AirMode } from "../materials/air-source.js";
@@ -277,10 +277,19 @@ export class LambentAsset {
    *   alone, and is as much finer. Without it all of the asset.
    * @returns whether something was relit
    * @throws Error if the asset is too large for the device's textures, the light has a number that
-   *   is not finite, or the renderer is not a WebGLRenderer with WebGL 2
+   *   is not finite, or the renderer is neither a WebGLRenderer with WebGL 2 nor an initialised
+   *   WebGPURenderer whose nodes the loader was given and can draw all of the asset
    */
-  update(renderer: WebGLRenderer, camera?: Camera): boolean {
-    checkRenderer(renderer);
+  update(renderer: AnyRenderer, camera?: Camera): boolean {
+    const { nodes } = this.source;
+    checkRenderer(renderer, nodes);
+    if (isNodeRenderer(renderer))
+      nodes?.checkWanted({
+        mirrors: this.kinds.has("mirror") && !this.unlit,
+        patches: this.kinds.has("bi-scale") && !this.unlit,
+        sun: this.sun.shines,
+        air: this.air.wanted,
+      });
     if (this.disposed)
       throw new Error("three-lambent: update() of an asset that was disposed of: load it again");
     let relit = this.updateOne(renderer, camera);
@@ -378,7 +387,7 @@ export class LambentAsset {
 
   /** 0: mirrors see nothing of the asset. */
   private captureSize(renderer: WebGLRenderer): number {
-    if (this.mirrors.count === 0 || !canCapture(renderer)) return 0;
+    if (this.mirrors.count === 0 || isNodeRenderer(renderer) || !canCapture(renderer)) return 0;
     return Math.min(Math.floor(this.mirrorSize), renderer.capabilities.maxCubemapSize);
   }
 

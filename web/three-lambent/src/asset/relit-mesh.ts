@@ -15,6 +15,8 @@ import {
 } from "three";
 import type { AssetDescription, Numbers, PrimitiveTransfer } from "../format/description.js";
 import type { FullScreenPass } from "../gpu/full-screen-pass.js";
+import type { LambentNodes } from "../gpu/nodes.js";
+import { isNodeRenderer, type NodeRenderer } from "../gpu/renderer.js";
 import { LitTexture } from "../gpu/lit-texture.js";
 import { kGroupsAFetch, kNumbersOf, RttTexture } from "../gpu/rtt-texture.js";
 import { Lease } from "../gpu/shared.js";
@@ -30,8 +32,8 @@ import type { AirMode } from "../materials/air-source.js";
 import { coverageUniforms, hasGaps, type Coverage } from "../materials/coverage.js";
 import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
 import { incidentGroups } from "../materials/group-macros.js";
-import { RelitMaterial, type RelitShaders } from "../materials/relit-material.js";
-import { patchShaders, surfaceShaders } from "../materials/relit-shaders.js";
+import { RelitMaterial, type RelitNodes, type RelitShaders } from "../materials/relit-material.js";
+import { patchShaders, surfaceShaders, type SurfaceShape } from "../materials/relit-shaders.js";
 import { bandOf } from "../sh/basis.js";
 import { shownLobe } from "../sh/lobe.js";
 import type { AssetSource } from "./asset-source.js";
@@ -100,6 +102,8 @@ export class RelitMesh {
   private built = "";
   private lits: Lit[] = [];
   private lease: Lease | null = null;
+  /** Of the renderer that it is prepared for, if that draws by nodes. */
+  private nodes: LambentNodes | null = null;
   /** Of shaders/local_capture.glsl. */
   private readonly captureUniforms = {
     capture: { value: null as CubeTexture | null },
@@ -151,6 +155,7 @@ export class RelitMesh {
 
   /** Makes what the choices need, if it is not there. @returns whether light is due again */
   prepare(renderer: WebGLRenderer, choices: Choices): boolean {
+    this.nodes = isNodeRenderer(renderer) ? this.shared.source.nodes : null;
     const { transfer, description } = this;
     const kind = transfer ? kindOf(description, transfer, choices.transfer) : "";
     const patch = transfer?.biScale ? `${choices.macro} ${choices.filter}` : "";
@@ -177,7 +182,14 @@ export class RelitMesh {
     return fresh;
   }
 
-  private build(renderer: WebGLRenderer, choices: Choices): RelitShaders {
+  private surface(
+    shape: SurfaceShape,
+    uniforms: Record<string, IUniform>,
+  ): RelitShaders | RelitNodes {
+    return this.nodes ? this.nodes.surface(shape, uniforms) : surfaceShaders(shape, uniforms);
+  }
+
+  private build(renderer: WebGLRenderer, choices: Choices): RelitShaders | RelitNodes {
     const { source, transfer, shared } = this;
     const { reflectance, map, colored, uv } = source;
     const gaps = hasGaps(source.coverage);
@@ -187,7 +199,7 @@ export class RelitMesh {
     const around = { ...covered, ...this.surroundings(choices) };
     if (choices.unlit) {
       const uniforms = { ...covered, reflectance: { value: new Vector3(...reflectance.base) } };
-      return surfaceShaders({ kind: "unlit", ...plain }, uniforms);
+      return this.surface({ kind: "unlit", ...plain }, uniforms);
     }
     if (source.isMirror) {
       const uniforms = {
@@ -196,12 +208,12 @@ export class RelitMesh {
         ...this.captureUniforms,
         reflectance: { value: new Vector3(...reflectance.mirror) },
       };
-      return surfaceShaders({ kind: "mirror", ...plain, air, captured }, uniforms);
+      return this.surface({ kind: "mirror", ...plain, air, captured }, uniforms);
     }
     if (transfer?.biScale) return this.buildPatch(renderer, choices);
     if (transfer && (transfer.vectors || transfer.matrices))
       return this.buildSurface(renderer, transfer, choices, around);
-    return surfaceShaders({ kind: "black", ...plain, air, captured }, around);
+    return this.surface({ kind: "black", ...plain, air, captured }, around);
   }
 
   /** Of what the asset is seen through, and by. */
@@ -228,12 +240,18 @@ export class RelitMesh {
     reflectance: readonly [number, number, number] = [1, 1, 1],
   ): LitTexture {
     const { key, what: mesh } = this.source;
-    const texture = new LitTexture(renderer, this.transfer!.receivers, what.rows, mesh);
+    const { nodes } = this;
+    const device = nodes
+      ? { maxTextureSize: nodes.maxTextureSize(renderer as unknown as NodeRenderer), floats: true }
+      : renderer.capabilities;
+    const texture = new LitTexture(device, this.transfer!.receivers, what.rows, mesh);
     const stored = this.lease!.take(
       `${key} ${what.name}`,
       () => new TransferRows(what.numbers(), what.shape.columns, mesh),
     );
-    const pass = new TransferPass(stored, what.shape, texture, reflectance);
+    const pass = nodes
+      ? nodes.pass(stored, what.shape, texture, reflectance)
+      : new TransferPass(stored, what.shape, texture, reflectance);
     this.lits.push({ texture, pass, glossy: false, scales: null, light: "whole", ...rest });
     return texture;
   }
@@ -243,7 +261,7 @@ export class RelitMesh {
     transfer: PrimitiveTransfer,
     choices: Choices,
     uniforms: Record<string, IUniform>,
-  ): RelitShaders {
+  ): RelitShaders | RelitNodes {
     const { description, source } = this;
     const { grid } = transfer;
     const kind = kindOf(description, transfer, choices.transfer);
@@ -312,7 +330,7 @@ export class RelitMesh {
       gaps: hasGaps(source.coverage),
       texelUv: grid?.texCoord === 1,
     };
-    return surfaceShaders(shape, uniforms);
+    return this.surface(shape, uniforms);
   }
 
   /** What shadowed transfer, which is held beside what is shown, makes of the Sun's harmonics. */
@@ -340,7 +358,7 @@ export class RelitMesh {
       const name = macro === biScale.shadowed ? "shadowed macro" : "macro";
       texture = this.add(renderer, { name, numbers: () => macro.numbers, shape, rows }, { scales });
     } else {
-      texture = new LitTexture(renderer, transfer.receivers, rows, source.what);
+      texture = new LitTexture(renderer.capabilities, transfer.receivers, rows, source.what);
       const frames = lease.take(
         `${source.key} frames`,
         () => new TurnFrames(source.normals(), biScale.tangents, rtt.bands, source.what),
@@ -387,6 +405,8 @@ export class RelitMesh {
 
   private mustFetch(renderer: WebGLRenderer, coefficients: number): boolean {
     const { incident } = this.shared.source;
+    // Of WebGPU's devices many have no more than fifteen varyings of four numbers.
+    if (this.nodes) return true;
     if (incident !== "auto") return incident === "fetch";
     return incidentGroups(coefficients) + kOtherVaryings > renderer.capabilities.maxVaryings;
   }

@@ -30,14 +30,33 @@ export interface RelitShaders {
   samples?: number;
 }
 
+/** Nodes for three's WebGPURenderer, and what they read when they are drawn. */
+export interface RelitNodes {
+  /** Of three's NodeMaterial: a material of WebGPURenderer takes over what has these names. */
+  fragmentNode: object;
+  uniforms: Record<string, IUniform>;
+  samples?: number;
+  vertex?: undefined;
+}
+
 /** Programs are the same where their sources are: a number for each pair of them, from 1. */
 const numbers = new Map<string, number>();
+
+/** Of nodes, from −1 down. */
+const nodeNumbers = new WeakMap<RelitNodes, number>();
+let nodeCount = 0;
+
+function numberOfNodes(nodes: RelitNodes): number {
+  const number = nodeNumbers.get(nodes) ?? -++nodeCount;
+  nodeNumbers.set(nodes, number);
+  return number;
+}
 
 const viewport = new Vector4();
 
 export class RelitMaterial extends MeshStandardMaterial {
   /** @internal null: three's own. */
-  shaders: RelitShaders | null = null;
+  shaders: RelitShaders | RelitNodes | null = null;
   /** @internal Before an object is drawn with it. */
   drawn: ((scene: Scene, object: Object3D) => void) | null = null;
   /** @internal After somebody disposed of it. */
@@ -75,11 +94,17 @@ export class RelitMaterial extends MeshStandardMaterial {
   }
 
   /** @internal */
-  wear(shaders: RelitShaders | null): void {
+  wear(shaders: RelitShaders | RelitNodes | null): void {
     super.dispose(); // the program that it had
     this.shaders = shaders;
     this.number = 0;
-    if (shaders) {
+    // By that name WebGPURenderer finds it.
+    Object.assign(this, { fragmentNode: null });
+    if (shaders?.vertex === undefined) {
+      Object.assign(this, { fragmentNode: shaders?.fragmentNode ?? null });
+      // Nodes hold what they read.
+      if (shaders) this.number = numberOfNodes(shaders);
+    } else {
       const text = shaders.vertex + shaders.fragment;
       this.number = numbers.get(text) ?? numbers.size + 1;
       numbers.set(text, this.number);
@@ -103,7 +128,7 @@ export class RelitMaterial extends MeshStandardMaterial {
   }
 
   override onBeforeCompile(program: WebGLProgramParametersWithUniforms): void {
-    if (!this.shaders) return;
+    if (this.shaders?.vertex === undefined) return;
     program.vertexShader = this.shaders.vertex;
     program.fragmentShader = this.shaders.fragment;
     Object.assign(program.uniforms, this.shaders.uniforms);

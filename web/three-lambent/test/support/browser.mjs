@@ -42,6 +42,7 @@ export async function bundle(source, three = "three") {
     define: { "process.env.NODE_ENV": '"development"' }, // React's strict mode
     alias: {
       "three-lambent/react": fileURLToPath(new URL("../../dist/react/index.js", import.meta.url)),
+      "three-lambent/webgpu": fileURLToPath(new URL("../../dist/webgpu/index.js", import.meta.url)),
       "three-lambent": fileURLToPath(new URL("../../dist/index.js", import.meta.url)),
       ...(three !== "three" && { three }),
     },
@@ -52,8 +53,10 @@ export async function bundle(source, three = "three") {
 /**
  * Serves `files` (name → bytes or text; what is missing is read from `folder`) and opens "/", a page
  * that runs `script`.
+ *
+ * @param flags of Chromium, besides those that all pages have
  */
-export async function openPage({ script, folder = "", files = {} }) {
+export async function openPage({ script, folder = "", files = {}, flags = [] }) {
   const html =
     '<!doctype html><html><body style="margin:0"><script type="module" src="/page.js"></script>';
   const all = { "page.js": script, "": html, "favicon.ico": "", ...files };
@@ -82,6 +85,7 @@ export async function openPage({ script, folder = "", files = {} }) {
       "--disable-background-networking",
       "--disable-component-update",
       "--disable-sync",
+      ...flags,
     ],
   });
   const page = await browser.newPage({ viewport: { width: 512, height: 512 } });
