@@ -103,7 +103,8 @@ export class LambentLoaderPlugin {
     });
     // What no scene shows, nobody can relight.
     gltf.userData ??= {};
-    const source = new AssetSource(description, entries, this.options.incident ?? "auto", this.options.nodes ?? null);
+    const { incident = "auto", nodes = null } = this.options;
+    const source = new AssetSource(description, entries, incident, nodes);
     const meshes = entries.map(({ mesh }) => mesh);
     gltf.userData.lambent = new LambentAsset(gltf.scene, source, meshes);
     return null;

@@ -8,7 +8,9 @@ import { fileURLToPath } from "node:url";
 import { bundle, openPage } from "./support/browser.mjs";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
-const sample = readFileSync(new URL("../../../spec/samples/every-layout.glb", import.meta.url));
+const [sample, square] = ["every-layout", "unoccluded-square"].map((name) =>
+  readFileSync(new URL(`../../../spec/samples/${name}.glb`, import.meta.url)),
+);
 
 /** The largest of the differences between pixels that a canvas shows and its corner. */
 async function contrast(page) {
@@ -24,9 +26,9 @@ async function contrast(page) {
   }, png);
 }
 
-async function shows(path, prepare = "") {
+async function shows(path, { prepare = "", baked = sample, beside = /THREE.Clock/ } = {}) {
   const script = await bundle(`${prepare} await import("../examples/${path}");`);
-  const browser = await openPage({ script, files: { "baked.glb": sample } });
+  const browser = await openPage({ script, files: { "baked.glb": baked } });
   try {
     await browser.page.setViewportSize({ width: 128, height: 96 });
     let most = 0;
@@ -35,7 +37,7 @@ async function shows(path, prepare = "") {
       most = await contrast(browser.page);
     }
     assert.ok(most >= 60, `${path} shows nothing`);
-    const said = browser.problems().filter((text) => !/THREE.Clock/.test(text));
+    const said = browser.problems().filter((text) => !beside.test(text));
     assert.deepEqual(said, []);
   } finally {
     await browser.close();
@@ -44,11 +46,14 @@ async function shows(path, prepare = "") {
 
 describe("examples", () => {
   it("three", () => shows("three/main.js"));
+  // Chromium as it comes has no WebGPU here, and says so.
+  it("three, by WebGPURenderer", () =>
+    shows("three/webgpu.js", { baked: square, beside: /WebGPU|adapter/ }));
   it("react", () =>
-    shows(
-      "react/main.tsx",
-      'document.body.insertAdjacentHTML("beforeend", `<div id="root" style="height:100vh">`);',
-    ));
+    shows("react/main.tsx", {
+      prepare:
+        'document.body.insertAdjacentHTML("beforeend", `<div id="root" style="height:100vh">`);',
+    }));
 
   it("are strict TypeScript", () => {
     const file = join(root, "tsconfig.examples.json");
@@ -58,7 +63,7 @@ describe("examples", () => {
       ...{ allowJs: true, checkJs: true, lib: ["ES2022", "DOM"] },
       paths: { "three-lambent": ["./dist/index.d.ts"], "three-lambent/*": ["./dist/*/index.d.ts"] },
     };
-    const files = ["examples/three/main.js", "examples/react/main.tsx"];
+    const files = ["examples/three/main.js", "examples/three/webgpu.js", "examples/react/main.tsx"];
     writeFileSync(file, JSON.stringify({ compilerOptions, files }));
     try {
       execFileSync("node", [join(root, "node_modules/typescript/bin/tsc"), "-p", file], {

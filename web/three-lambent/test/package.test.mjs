@@ -6,6 +6,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { describe, it } from "node:test";
 import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { build } from "esbuild";
 import { bundle, openPage } from "./support/browser.mjs";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
@@ -71,6 +73,24 @@ describe("the package", () => {
       ))
         if (!kFolders[file.split("/")[1]]?.includes(from)) found.add(from);
     assert.deepEqual([...found], ["three"]);
+  });
+
+  it("has nodes of WebGPURenderer in an entry of their own, which is small", async () => {
+    const bytesOf = async (entry) => {
+      const { outputFiles, metafile } = await build({
+        entryPoints: [join(root, entry)],
+        ...{ bundle: true, format: "esm", minify: true, write: false, metafile: true },
+        external: ["three", "three/*"],
+      });
+      const from = Object.values(metafile.outputs)[0].imports.map(({ path }) => path);
+      return { bytes: gzipSync(outputFiles[0].contents).length, from: [...new Set(from)].sort() };
+    };
+    const whole = await bytesOf("dist/index.js");
+    assert.deepEqual(whole.from, ["three"]);
+    const nodes = await bytesOf("dist/webgpu/index.js");
+    assert.deepEqual(nodes.from, ["three", "three/tsl", "three/webgpu"]);
+    console.log(`${whole.bytes} bytes packed, and ${nodes.bytes} of nodes`);
+    assert.ok(nodes.bytes < 6000, `${nodes.bytes}`);
   });
 
   it("is locked without the name of any host", () => {

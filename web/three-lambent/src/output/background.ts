@@ -9,6 +9,7 @@ import {
   Vector4,
 } from "three";
 import type { LambentAsset } from "../asset/asset.js";
+import { isNodeRenderer } from "../gpu/renderer.js";
 import { airSource, type AirMode } from "../materials/air-source.js";
 import { backgroundFrag, backgroundVert } from "../generated/shaders.js";
 import {
@@ -25,6 +26,7 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
   private readonly shown = new EnvironmentUniforms();
   private asset: LambentAsset | null = null;
   private air: AirMode = "none";
+  private refused = false;
 
   constructor(environment: Environment | null = null) {
     const geometry = new BufferGeometry();
@@ -37,7 +39,8 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
     this.frustumCulled = false;
     this.renderOrder = 1; // behind what is there: pixels that are covered cost nothing
     this.raycast = () => {};
-    this.onBeforeRender = (_renderer, _scene, camera) => {
+    this.onBeforeRender = (renderer, _scene, camera) => {
+      if (isNodeRenderer(renderer)) this.refuse();
       const { worldFromClip, eye } = this.material.uniforms;
       worldFromClip.value.copy(camera.matrixWorld).multiply(camera.projectionMatrixInverse);
       const c = camera.matrixWorld.elements;
@@ -65,6 +68,16 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
     this.air = air;
     this.material.dispose();
     this.material = this.makeMaterial();
+  }
+
+  /** Once: three draws nothing of it. */
+  private refuse(): void {
+    if (this.refused) return;
+    this.refused = true;
+    console.warn(
+      "three-lambent: EnvironmentBackground is not drawn by WebGPURenderer: give scene.background " +
+        "the map, or use THREE.WebGLRenderer",
+    );
   }
 
   private makeMaterial(): ShaderMaterial {

@@ -10,6 +10,7 @@ import {
 } from "three";
 import { outputFrag, passVert } from "../generated/shaders.js";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
+import { isNodeRenderer } from "../gpu/renderer.js";
 import { toneGlsl, type ToneCurve } from "./tone.js";
 
 /**
@@ -37,6 +38,7 @@ export class ToneMapper {
    * @param picture as large as the target, pixel for pixel; linear
    * @param target null: the canvas
    * @param count how many pictures were added up in it, of which the mean is shown
+   * @throws TypeError for a WebGPURenderer
    */
   render(
     renderer: WebGLRenderer,
@@ -44,6 +46,11 @@ export class ToneMapper {
     target: WebGLRenderTarget | null = null,
     count = 1,
   ): void {
+    if (isNodeRenderer(renderer))
+      throw new TypeError(
+        "three-lambent: ToneMapper cannot draw by WebGPURenderer: use its own toneMapping, or " +
+          "THREE.WebGLRenderer",
+      );
     const { uniforms } = this.material;
     uniforms.picture.value = picture;
     uniforms.factor.value = 2 ** this.exposure / count;

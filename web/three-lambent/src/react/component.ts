@@ -82,7 +82,7 @@ function Relit({ asset, props }: { asset: Asset; props: RelitProps }): ReactNode
 /** Props that are the group's. */
 function groupProps(props: Record<string, unknown>): Record<string, unknown> {
   const own = new Set<string>([...kSwitches, "light", "sun", "environment", "air", "airOptions"]);
-  for (const key of ["onLoad", "url", "asset", "incident", "extendLoader", "children"])
+  for (const key of ["onLoad", "url", "asset", "incident", "nodes", "extendLoader", "children"])
     own.add(key);
   return Object.fromEntries(Object.entries(props).filter(([key]) => !own.has(key)));
 }
@@ -98,8 +98,8 @@ function Shown({ asset, props }: { asset: Asset | null; props: RelitProps }): Re
 }
 
 function Loaded({ props }: { props: RelitProps & { url: string } & UseLambentOptions }): ReactNode {
-  const { incident, extendLoader } = props;
-  const asset = useLambent(props.url, { incident, extendLoader });
+  const { incident, nodes, extendLoader } = props;
+  const asset = useLambent(props.url, { incident, nodes, extendLoader });
   return createElement(Shown, { asset, props });
 }
 

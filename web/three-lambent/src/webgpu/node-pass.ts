@@ -11,7 +11,7 @@ import {
   Loop,
   screenCoordinate,
   select,
-  textureLoad,
+  texture,
   uniform,
   uniformArray,
   vec3,
@@ -32,7 +32,7 @@ interface Rows {
 }
 
 /** Where rows lie: src/glsl/row_place.glsl. @returns texel `on` of a row */
-function rowReader({ texture, layout }: Rows): (row: Int, on?: Int) => Node<"vec4"> {
+function rowReader({ texture: stored, layout }: Rows): (row: Int, on?: Int) => Node<"vec4"> {
   const aLine = uniform(layout.rowsALine, "int");
   const aLayer = uniform(layout.linesALayer, "int");
   const texels = uniform(layout.texelsARow, "int");
@@ -41,7 +41,8 @@ function rowReader({ texture, layout }: Rows): (row: Int, on?: Int) => Node<"vec
     const layer = line.div(aLayer).toVar();
     const x = row.sub(line.mul(aLine)).mul(texels);
     const place = ivec2(on ? x.add(on) : x, line.sub(layer.mul(aLayer)));
-    return textureLoad(texture, place, int(0)).depth(layer) as unknown as Node<"vec4">;
+    const load = texture(stored, place).level(int(0)).depth(layer).setSampler(false);
+    return load as unknown as Node<"vec4">;
   };
 }
 

@@ -6,8 +6,11 @@ import type { NodeRenderer } from "../gpu/renderer.js";
 import { NodePass } from "./node-pass.js";
 import { surfaceNodes } from "./surface.js";
 
-/** The first release of three whose nodes these are: 0.kOldestThree.0. */
-export const kOldestThree = 187;
+/**
+ * The first release of three whose nodes these are: 0.kOldestThree.0. Before 0.184 its WebGL 2 back end,
+ * before 0.182 both, cannot fetch a texel of an array texture (2026-11).
+ */
+export const kOldestThree = 184;
 
 /** What there is of WebGPURenderer, once it is initialised. */
 interface Initialised extends NodeRenderer {
@@ -33,8 +36,8 @@ export const nodes: LambentNodes = {
   check(renderer) {
     if (!(Number.parseInt(REVISION, 10) >= kOldestThree))
       throw new Error(
-        `three-lambent: nodes of three-lambent/webgpu need three 0.${kOldestThree}.0 or later, and ` +
-          `this is r${REVISION}: update three, or use THREE.WebGLRenderer`,
+        `three-lambent: three-lambent/webgpu needs three 0.${kOldestThree}.0 or later, and this is ` +
+          `r${REVISION}: update three, or use THREE.WebGLRenderer`,
       );
     const given = renderer as Initialised;
     if (given.hasInitialized?.() === false)
@@ -50,7 +53,7 @@ export const nodes: LambentNodes = {
       : patches
         ? "meso-structure"
         : sun
-          ? "a sharp Sun (setSun)"
+          ? "sharp Sun (setSun)"
           : air
             ? "air (setAir)"
             : null;

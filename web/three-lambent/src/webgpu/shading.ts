@@ -102,7 +102,10 @@ export function lobeRadiance(
 }
 
 /** shaders/texel_receivers.glsl. */
-export function texelsAround(uv: Vec2, grid: Node<"ivec2">): { receivers: Int[]; weights: Float[] } {
+export function texelsAround(
+  uv: Vec2,
+  grid: Node<"ivec2">,
+): { receivers: Int[]; weights: Float[] } {
   const size = vec2(grid);
   const at = clamp(uv.mul(size).sub(0.5), vec2(0), size.sub(1)).toVar();
   const a = ivec2(at).toVar();

@@ -2,7 +2,15 @@
 // shading_point.glsl and incident_texture.glsl. They write linear radiance; fog, tone mapping and
 // colour space follow, as for three's own materials.
 
-import { Matrix4, Vector2, Vector3, Vector4, type Camera, type IUniform, type Texture } from "three";
+import {
+  Matrix4,
+  Vector2,
+  Vector3,
+  Vector4,
+  type Camera,
+  type IUniform,
+  type Texture,
+} from "three";
 import {
   attribute,
   cameraProjectionMatrix,
@@ -110,15 +118,13 @@ export function surfaceNodes(shape: SurfaceShape, uniforms: Uniforms): RelitNode
 
   // Where a receiver's results are: of vertices at their corners, of texels around a place.
   const corners = attribute("lambentCorners", "uvec3") as Node<"uvec3">;
-  const corner = vertexIndex.mod(3);
+  const index = int(vertexIndex);
+  const corner = index.sub(index.div(3).mul(3));
   const isCorner = (k: number) => select(corner.equal(k), 1, 0) as unknown as Float;
   const barycentric = varying(vec3(isCorner(0), isCorner(1), isCorner(2))) as unknown as Vec3;
-  const ownCorner = select(
-    corner.equal(0),
-    corners.x,
-    select(corner.equal(1), corners.y, corners.z),
-  );
-  const receiver = int(shape.fetch ? (ownCorner as Node<"uint">) : vertexIndex);
+  const [first, second, third] = [corners.x, corners.y, corners.z].map((k) => int(k));
+  const later = select(corner.equal(1), second, third);
+  const receiver = shape.fetch ? (select(corner.equal(0), first, later) as Int) : index;
 
   const diffuseOf = diffuse && results(uniforms.diffuseLit.value, uniforms.diffuseALine.value, 1);
   const interpolated =
@@ -172,7 +178,7 @@ export function surfaceNodes(shape: SurfaceShape, uniforms: Uniforms): RelitNode
     Discard(isThere(coverage, all, screenCoordinate as unknown as Vec2, depth).not());
   };
 
-  /** R, unit: the view mirrored about the normal; and N·R. All fragments of a quad come here: derivatives. */
+  /** R, the view mirrored about the normal, unit; and N·R. All of a quad comes here: derivatives. */
   const mirroredView = (): Mirrored => {
     const toViewer = select(
       eye.w.greaterThan(0),
@@ -199,7 +205,7 @@ export function surfaceNodes(shape: SurfaceShape, uniforms: Uniforms): RelitNode
       sum = shape.albedoOutside ? direct.mul(base) : direct;
     }
     if (incidentOf && reflected) {
-      const at = texels?.receivers ?? [corners.x, corners.y, corners.z].map((k) => int(k));
+      const at = texels?.receivers ?? [first, second, third];
       const weights = texels?.weights ?? [barycentric.x, barycentric.y, barycentric.z];
       const places = at.map((each) => incidentOf(each));
       const incident = Array.from({ length: groups }, (_, g) =>

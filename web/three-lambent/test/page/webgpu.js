@@ -159,6 +159,6 @@ export async function draw(renderer, file, changes = {}) {
 
 Object.assign(window, {
   ...{ THREE, lambent, nodes, load, makeRenderer, makeLight, makeCamera, pixels, apart },
-  ...{ draw, thrown, pictureOf, size },
+  ...{ WebGPURenderer, draw, thrown, pictureOf, size },
 });
 window.ready = true;
