@@ -1,6 +1,6 @@
 // Writes src/generated: the GLSL of this package (src/glsl) and what it shares with the native renderer
-// (shaders/ of the repository) as strings, each in a module of its own, for bundlers divide a program
-// by modules; and the constants of it that programs need as well. shaders.ts has all of them.
+// (shaders/ of the repository) as strings, and the constants of it that programs need as well. Each text
+// is a module of its own, and none has all of them: bundlers divide a program by modules.
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { bareGlsl } from "./bare-glsl.mjs";
 
@@ -25,11 +25,9 @@ mkdirSync(generated, { recursive: true });
 const kHead = "// Made by scripts/embed-shaders.mjs.\n";
 const write = (name, text) => writeFileSync(new URL(`${name}.ts`, generated), kHead + text);
 
-let all = "";
 for (const [file, text] of texts) {
   const name = nameOf(file);
   write(name, `export const ${name}: string = ${JSON.stringify(bareGlsl(text))};\n`);
-  all += `export { ${name} } from "./${name}.js";\n`;
 }
 const together = [...texts.values()].join("\n");
 let constants = "";
@@ -39,4 +37,3 @@ for (const name of kConstants) {
   constants += `export const ${name} = ${found[0][1]};\n`;
 }
 write("constants", constants);
-write("shaders", `${all}export * from "./constants.js";\n`);
