@@ -75,8 +75,10 @@ export class LambentLoaderPlugin {
       .then((description) => {
         this.description = description;
         // Comes while the meshes do.
-        const { materials = [] } = parser.json as { materials?: unknown[] };
-        const mirrors = materials.some((each) => isMirror(reflectanceOf(each, false)));
+        const { materials } = parser.json as { materials?: unknown };
+        const mirrors =
+          Array.isArray(materials) &&
+          materials.some((each) => isMirror(reflectanceOf(each, false)));
         this.extras = extrasOf(description, mirrors);
         this.extras.catch(() => {}); // afterRoot tells
       });

@@ -6,8 +6,6 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { describe, it } from "node:test";
 import { fileURLToPath } from "node:url";
-import { gzipSync } from "node:zlib";
-import { build } from "esbuild";
 import { bundle, openPage } from "./support/browser.mjs";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
@@ -72,37 +70,6 @@ describe("the package", () => {
       ))
         if (!kFolders[file.split("/")[1]]?.includes(from)) found.add(from);
     assert.deepEqual([...found], ["three"]);
-  });
-
-  // Without what import() fetches later. Sums of all files that a bundler makes of the rest.
-  it("brings a page as few bytes as the README says, before a file asks for more", async () => {
-    const most = Number(/at most ([\d,]+) bytes/.exec(readme)[1].replaceAll(",", ""));
-    const program =
-      'export { LambentLight, LambentLoaderPlugin, lambentOf } from "./dist/index.js";';
-    const { outputFiles, metafile } = await build({
-      stdin: { contents: program, resolveDir: root, sourcefile: "program.js" },
-      ...{ bundle: true, splitting: true, minify: true, format: "esm", external: ["three"] },
-      ...{ write: false, metafile: true, outdir: join(root, "bundle"), absWorkingDir: root },
-    });
-    const sizes = new Map();
-    const add = (path) => {
-      if (sizes.has(path)) return;
-      const { contents } = outputFiles.find((file) => file.path === join(root, path));
-      sizes.set(path, gzipSync(contents, { level: 9 }).length);
-      for (const { path: next, kind, external } of metafile.outputs[path].imports)
-        if (kind === "import-statement" && !external) add(next);
-    };
-    const [begin] = Object.entries(metafile.outputs).find(
-      ([, { entryPoint }]) => entryPoint === "program.js",
-    );
-    add(begin);
-    const bytes = [...sizes.values()].reduce((a, b) => a + b);
-    console.log(`the plugin and its light: ${bytes} bytes as gzip sends them`);
-    const parts = [...sizes.keys()]
-      .flatMap((path) => Object.entries(metafile.outputs[path].inputs))
-      .sort(([, a], [, b]) => b.bytesInOutput - a.bytesInOutput)
-      .map(([path, { bytesInOutput }]) => `${bytesInOutput} of ${path}`);
-    assert.ok(bytes <= most, `${bytes} bytes, of which before gzip\n${parts.join("\n")}`);
   });
 
   it("is locked without the name of any host", () => {
