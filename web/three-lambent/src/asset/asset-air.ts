@@ -17,7 +17,7 @@ import type { QuaternionLike } from "../light/light.js";
 import type { AerialPerspective } from "../sky/air.js";
 import type { SunMap } from "../gpu/sun-map.js";
 import { airSource } from "../materials/air-source.js";
-import { kNoAir, type AirMode } from "../materials/surroundings.js";
+import type { AirMode } from "../materials/surroundings.js";
 import { stateOf } from "../materials/uniform-state.js";
 
 export interface AirOptions {
@@ -93,7 +93,7 @@ export class AssetAir {
 
   /** Of fragment shaders. */
   source(mode: AirMode): string {
-    return mode === "none" ? kNoAir : airSource(mode === "shafts");
+    return airSource(mode);
   }
 
   /** Where the asset stands in the air. */

@@ -11,12 +11,12 @@ import {
   type Matrix4,
   type WebGLRenderer,
 } from "three";
-import { captured } from "../generated/captured.js";
+import { captured as capturedGlsl } from "../generated/captured.js";
 import { localCapture } from "../generated/localCapture.js";
 import { canCapture, LocalCapture } from "../gpu/local-capture.js";
 import { environmentGlsl, EnvironmentUniforms } from "../materials/environment-uniforms.js";
 import { boxOf, capturePlace } from "./mirror-place.js";
-import type { RelitMesh } from "./relit-mesh.js";
+import type { Choices, RelitMesh } from "./relit-mesh.js";
 
 /** Mirrors with a capture of their own, the largest ones; others look into the nearest. */
 const kMostCaptures = 8;
@@ -60,16 +60,16 @@ export class Mirrors {
     captureScale: { value: new Vector2(1, 1) },
   };
   /** Text of the shaders of all surfaces that mirrors see. */
-  readonly capturedSource = captured;
+  readonly capturedSource = capturedGlsl;
   private meshes: readonly RelitMesh[] = [];
   private readonly captured: Captured[] = [];
   private readonly scene = new Scene();
   private readonly copies: Mesh[] = [];
   private done = "";
 
-  /** Of a mirror's shader. @param captures whether it sees the asset */
-  source(captures: boolean): string {
-    return environmentGlsl + (captures ? localCapture : "");
+  /** Text of a mirror's shader: of the environment and, where it is captured, of the asset. */
+  source({ captured }: Pick<Choices, "captured">): string {
+    return environmentGlsl + (captured ? localCapture : "");
   }
 
   /**

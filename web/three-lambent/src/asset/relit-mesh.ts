@@ -200,7 +200,7 @@ export class RelitMesh {
         ...this.captureUniforms,
         reflectance: { value: new Vector3(...reflectance.mirror) },
       };
-      const shown = mirrors.source(choices.captured);
+      const shown = mirrors.source(choices);
       return surfaceShaders({ kind: "mirror", ...plain, surroundings, shown }, uniforms);
     }
     if (transfer && (transfer.vectors || transfer.matrices))
