@@ -3,6 +3,7 @@
 import type { WebGLRenderer } from "three";
 import type { AssetDescription } from "../format/description.js";
 import { SharedThings } from "../gpu/shared.js";
+import type { Extras } from "./extras.js";
 import { MeshSource, type MeshEntry } from "./mesh-source.js";
 
 /** How incident light comes to fragments: interpolated, or fetched at the triangle's corners. */
@@ -19,6 +20,7 @@ export class AssetSource {
     readonly description: AssetDescription,
     entries: readonly MeshEntry[],
     readonly incident: IncidentMode,
+    readonly extras: Extras,
   ) {
     this.meshes = entries.map(
       (entry, i) => new MeshSource(entry, description.primitives.get(entry.key) ?? null, i),
