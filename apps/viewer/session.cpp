@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/extension.h"
 #include "lambent/image/io.h"
 #include "lambent/sources/source.h"
 #include "lambent/view/orbit.h"
@@ -15,12 +16,6 @@
 namespace lambent::viewer {
 
 namespace {
-
-std::string lowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return extension;
-}
 
 bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -53,7 +48,7 @@ void Session::openState(const std::filesystem::path& path) {
 }
 
 void Session::open(const std::filesystem::path& path) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = file::extensionOf(path);
   if (isOneOf(extension, {".glb", ".gltf", ".obj", ".ply"})) return openAsset(path);
   if (isOneOf(extension, {".exr", ".hdr", ".png", ".jpg", ".jpeg"}))
     return openEnvironment(path.string());
