@@ -44,6 +44,7 @@ void Session::openState(const std::filesystem::path& path) {
   auto read = view::readViewState(path);
   if (!read) return notices.problem(read.error());
   waiting_ = std::move(*read);
+  if (findLights_) waiting_->environment = findLights_(waiting_->environment, path);
   loader_.readEnvironment(waiting_->environment);
 }
 

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "apps/viewer/light_finder.h"
 #include "apps/viewer/loader.h"
 #include "apps/viewer/notices.h"
 #include "apps/viewer/sky_control.h"
@@ -36,6 +38,8 @@ class Session {
 
   /// Of all files that are opened from now on.
   void allow(const asset::ReadOptions& reading) { loader_.allow(reading); }
+  /// Of all states that are opened from now on.
+  void findLightsBy(LightFinder finder) { findLights_ = std::move(finder); }
   /// All of these read in the background; what is shown stays until the file is there, and for good
   /// if something is wrong with it.
   void openAsset(const std::filesystem::path& path);
@@ -89,6 +93,7 @@ class Session {
   void nameEnvironment(const std::string& source, bool instead);
 
   Loader loader_;
+  LightFinder findLights_;
   std::optional<view::ViewState> waiting_;  ///< a state whose environment is being read
   std::optional<sky::SkyRequest> sky_;
   std::string skyRemark_;

@@ -148,6 +148,7 @@ Status openFirst(Viewer& viewer, const ViewerOptions& options) {
   Session& session = viewer.session;
   session.environments = options.environments;
   session.allow(options.reading);
+  session.findLightsBy(options.findLights);
   if (!options.environments.empty()) session.openEnvironment(options.environments.front());
   if (!options.asset.empty()) session.openAsset(options.asset);
   // The state last: it is meant for this asset.
