@@ -162,8 +162,8 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
   app->footer(sources::sourceHelp() + std::string(kViewExamples) +
               std::string(viewer::kScriptHelp));
   app->add_option("ASSET", arguments->asset,
-                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote; others can be dropped "
-                  "on the window");
+                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote; others can be opened "
+                  "in the window (O), or dropped on it");
   app->add_option("ENVIRONMENT", arguments->environments,
                   "SOURCEs of light to switch between (see below). None: a plain white sky");
   app->add_option("--view", arguments->state,
