@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-all=(gltf obj ply asset rtt exr hdr png jpeg webp light view source atmosphere)
+all=(gltf obj ply asset rtt exr hdr png jpeg webp light view source atmosphere uri)
 seconds=5 coverage= targets=()
 usage() {
   sed -n 's/^# \{0,1\}//; 2,10p' "$0" >&2
@@ -109,6 +109,7 @@ sources_of() {
     hdr | png | jpeg | webp) room=image names=$1 ;;
     light) room=light names=light_file ;;
     view) room=view names=view_state_json ;;
+    uri) room=file names="file_uri" ;;
     source) room=sources names="files formulas numbers source" ;;
     atmosphere) room=sky names="atmosphere_file atmosphere_json member_reader" ;;
   esac

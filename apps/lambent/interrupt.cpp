@@ -4,8 +4,8 @@
 
 #include <csignal>
 
-#include "apps/lambent/piped_files.h"
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/temporary_folder.h"
 
 namespace lambent::tool {
 
@@ -13,7 +13,7 @@ namespace {
 
 extern "C" void onInterrupt(int signal) {
   file::AtomicFile::discardAll();
-  PipedFiles::discardAll();
+  file::TemporaryFolder::discardAll();
   if (isatty(STDERR_FILENO)) {
     const char newline = '\n';  // leave the progress bar's line to itself
     if (write(STDERR_FILENO, &newline, 1) < 0) _exit(128 + signal);

@@ -11,9 +11,9 @@
 #include "apps/lambent/console.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/interrupt.h"
-#include "apps/lambent/piped_files.h"
 #include "apps/lambent/standard_streams.h"
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/temporary_folder.h"
 #include "lambent/work/thread_limit.h"
 
 namespace {
@@ -109,7 +109,7 @@ int cryFor(const std::exception_ptr& thrown) {
 /// get no memory nothing can be caught any more.
 [[noreturn]] void onTerminate() {
   file::AtomicFile::discardAll();
-  PipedFiles::discardAll();
+  file::TemporaryFolder::discardAll();
   _exit(cryFor(std::current_exception()));
 }
 

@@ -5,13 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <vector>
 
 #include "apps/lambent/standard_streams.h"
@@ -22,15 +19,6 @@ namespace lambent::tool {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What a signal handler has to remove: two files, then their folder. Empty: nothing.
-constexpr std::size_t kLongestPath = 4096;
-char toRemove[3][kLongestPath] = {};
-
-void remember(int slot, const fs::path& path) {
-  const std::string text = path.string();
-  if (text.size() < kLongestPath) std::memcpy(toRemove[slot], text.c_str(), text.size() + 1);
-}
 
 /// {"asset": …} is a glTF, every other JSON for those who read lights to judge.
 std::string extensionOfJson(std::string_view text) {
@@ -127,31 +115,11 @@ void replaceAll(std::string& text, const std::string& from, std::string_view to)
 
 }  // namespace
 
-PipedFiles::~PipedFiles() {
-  if (folder_.empty()) return;
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-  for (auto& path : toRemove) path[0] = '\0';
-}
-
-void PipedFiles::discardAll() noexcept {
-  for (int slot : {0, 1})
-    if (toRemove[slot][0]) unlink(toRemove[slot]);
-  if (toRemove[2][0]) rmdir(toRemove[2]);
-}
-
 Status PipedFiles::makeFolder() {
-  if (!folder_.empty()) return Status::ok();
-  std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  std::string name = (parent / "lambent-XXXXXX").string();
-  if (error || !mkdtemp(name.data()))
-    return report::badInput(fmt::format(
-        "'-' takes a folder for temporary files, and none can be made in {}: {}. TMPDIR names "
-        "another",
-        error ? "TMPDIR" : parent.string(), error ? error.message() : std::strerror(errno)));
-  folder_ = name;
-  remember(2, folder_);
+  if (folder_) return Status::ok();
+  auto made = file::TemporaryFolder::create();
+  if (!made) return report::badInput("'-': " + made.error().message);
+  folder_.emplace(std::move(*made));
   return Status::ok();
 }
 
@@ -162,8 +130,7 @@ Result<fs::path> PipedFiles::input(std::string_view name) {
     return report::badUsage(fmt::format(
         "{}: standard input is a terminal: have a file or a pipe there, as in '… < FILE'", name));
   if (Status made = makeFolder(); !made) return made.error();
-  const fs::path raw = folder_ / "standard-input";
-  remember(0, raw);
+  const fs::path raw = folder_->place("standard-input");
   const int descriptor = open(raw.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) return noRoom(raw);
   Status copied = copyInput(descriptor, raw);
@@ -178,8 +145,7 @@ Result<fs::path> PipedFiles::input(std::string_view name) {
     return report::badInput(
         "standard input is of no kind that is read here: .glb .gltf .obj .ply .exr .hdr .png .jpg "
         ".webp .json .csv .rtt, told by its first bytes");
-  input_ = folder_ / ("standard-input" + extension);
-  remember(0, input_);
+  input_ = folder_->place("standard-input" + extension);
   if (std::rename(raw.c_str(), input_.c_str()) != 0) return noRoom(raw);
   return input_;
 }
@@ -193,8 +159,7 @@ Result<fs::path> PipedFiles::output(std::string_view name, std::string_view exte
                     "it to a file or a pipe, as in '{} - > FILE{}'",
                     name, extension, name, extension));
   if (Status made = makeFolder(); !made) return made.error();
-  output_ = folder_ / fmt::format("standard-output{}", extension);
-  remember(1, output_);
+  output_ = folder_->place(fmt::format("standard-output{}", extension));
   return output_;
 }
 
@@ -217,7 +182,7 @@ Status PipedFiles::deliver() {
 std::string PipedFiles::inWords(std::string text) const {
   replaceAll(text, input_.string(), "standard input");
   replaceAll(text, output_.string(), "standard output");
-  replaceAll(text, folder_.string(), "the folder of standard input");
+  if (folder_) replaceAll(text, folder_->path().string(), "the folder of standard input");
   return text;
 }
 

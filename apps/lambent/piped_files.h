@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "lambent/file/temporary_folder.h"
 #include "lambent/report/result.h"
 
 namespace lambent::tool {
@@ -17,7 +18,6 @@ class PipedFiles {
   PipedFiles() = default;
   PipedFiles(const PipedFiles&) = delete;
   PipedFiles& operator=(const PipedFiles&) = delete;
-  ~PipedFiles();
 
   /// All of standard input, as a file whose extension is told by its bytes. BadUsage: asked for
   /// twice (`name`: by what), or it is a terminal. BadInput: empty, of no kind that is known, or
@@ -35,13 +35,11 @@ class PipedFiles {
   /// "-" for the two files, else the text in words.
   std::string asArgument(const std::string& text) const;
 
-  /// Removes what a process that ends at once would leave: safe in a signal handler.
-  static void discardAll() noexcept;
-
  private:
   Status makeFolder();
 
-  std::filesystem::path folder_, input_, output_;
+  std::optional<file::TemporaryFolder> folder_;
+  std::filesystem::path input_, output_;
 };
 
 }  // namespace lambent::tool

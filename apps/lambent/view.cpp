@@ -14,6 +14,7 @@
 #include "apps/lambent/reading_arguments.h"
 #include "apps/lambent/standard_streams.h"
 #include "apps/lambent/verbs.h"
+#include "apps/lambent/web_lights.h"
 #include "apps/lambent/web_server.h"
 #include "apps/viewer/captured_light.h"
 #include "apps/viewer/viewer.h"
@@ -106,6 +107,7 @@ Status runView(ViewRequest arguments, Console& console) {
   options.environments = arguments.environments;
   options.state = arguments.state;
   options.reading = arguments.reading.forAsset();
+  options.findLights = withPageLights;
   options.window.size = {arguments.size.width, arguments.size.height};
   options.window.visible = !arguments.hidden;
   options.panel = !arguments.noPanel && arguments.screenshot.empty();
@@ -160,11 +162,13 @@ Verb addView(CLI::App& root, ConsoleOptions& common) {
   app->footer(sources::sourceHelp() + std::string(kViewExamples) +
               std::string(viewer::kScriptHelp));
   app->add_option("ASSET", arguments->asset,
-                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote; others can be dropped "
-                  "on the window");
+                  "A .glb that 'lambent bake' or 'lambent synthesize' wrote; others can be opened "
+                  "in the window (O), or dropped on it");
   app->add_option("ENVIRONMENT", arguments->environments,
                   "SOURCEs of light to switch between (see below). None: a plain white sky");
-  app->add_option("--view", arguments->state, "A state that was saved in a viewer")
+  app->add_option("--view", arguments->state,
+                  "A state that was saved in a viewer. Lights of it that are not in the current "
+                  "folder are sought beside it, and among those of the page")
       ->option_text("STATE.json")
       ->group("View");
   addParsed(*app, "--size", arguments->size, sizesUpTo(16384),

@@ -2,13 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-
 #include "apps/lambent/arguments.h"
 #include "lambent/asset/asset.h"
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/temporary_folder.h"
 #include "lambent/image/io.h"
 #include "lambent/image/maps.h"
 #include "lambent/sources/source.h"
@@ -57,16 +54,11 @@ Result<std::string> resampled(const std::string& term, int height,
     for (int x = 0; x < map.width; ++x)
       map.at(x, y) =
           parsed->value.radiance(image::directionOf(shape, {x + 0.5, y + 0.5})->cast<float>());
-  // A folder of our own: a name that others can guess may already lead to some file.
-  std::string folder = (fs::temp_directory_path() / "lambent-XXXXXX").string();
-  if (!mkdtemp(folder.data()))
-    return failed(fmt::format("cannot make a folder {}: {}", folder, std::strerror(errno)));
-  const fs::path path = fs::path(folder) / "map.exr";
-  const Status status = image::write(map, path);
-  auto bytes = status ? readText(path) : Result<std::string>(status.error());
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
-  return bytes;
+  auto folder = file::TemporaryFolder::create();
+  if (!folder) return folder.error();
+  const fs::path path = folder->place("map.exr");
+  if (const Status status = image::write(map, path); !status) return status.error();
+  return readText(path);
 }
 
 /// Adds the files behind one SOURCE, and says under which names.

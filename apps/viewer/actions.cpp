@@ -73,6 +73,8 @@ std::vector<Action> makeActions() {
   const auto toggle = [](auto member) {
     return [member](S s, P) { s.state.*member = !(s.state.*member); };
   };
+  using What = FileQuestion::What;
+  const auto ask = [](What what) { return [what](S s, P p) { s.ask(what, p); }; };
   const auto expose = [](double step) { return [step](S s, P) { s.state.exposure += step; }; };
   return {
       {"F", {GLFW_KEY_F, 0}, view, "frame the whole object", [](S s, P p) { s.frameAll(p); }},
@@ -227,17 +229,21 @@ std::vector<Action> makeActions() {
          s.state.tone = s.state.tone == Tone::Filmic ? Tone::Linear : Tone::Filmic;
        }},
 
-      {"O", {GLFW_KEY_O, 0}, files, "open a file", [](S s, P) { s.desk.askForFile = true; }},
+      {"O", {GLFW_KEY_O, 0}, files, "open an asset, a light or a view", ask(What::OpenAsset)},
+      {"Ctrl+O", {GLFW_KEY_O, kCtrl}, files, "the same", ask(What::OpenAsset)},
+      {"Shift+O", {GLFW_KEY_O, kShift}, files, "open a light", ask(What::OpenLight)},
       {"S",
        {GLFW_KEY_S, 0},
        files,
-       "save the picture",
+       "save the picture here, by a free name",
        [](S s, P p) { s.saveScreenshot(s.freeName(".png"), p); }},
+      {"Shift+S", {GLFW_KEY_S, kShift}, files, "… where you say", ask(What::SavePicture)},
       {"Ctrl+S",
        {GLFW_KEY_S, kCtrl},
        files,
-       "save the state of the view",
+       "save the view here, by a free name",
        [](S s, P) { s.saveState(s.freeName(".json")); }},
+      {"Ctrl+Shift+S", {GLFW_KEY_S, kCtrl | kShift}, files, "… where you say", ask(What::SaveView)},
       {"Tab",
        {GLFW_KEY_TAB, 0},
        files,
@@ -253,7 +259,8 @@ std::vector<Action> makeActions() {
        files,
        "close what lies over it",
        [](S s, P) {
-         s.desk.help = s.desk.askForFile = false;
+         s.desk.help = false;
+         s.askNoMore();
          s.notices.putAway();
        }},
       {"Ctrl+Q", {GLFW_KEY_Q, kCtrl}, files, "quit", [](S s, P) { s.desk.quit = true; }},

@@ -1,5 +1,6 @@
 #include "apps/viewer/gl_window.h"
 
+#include <dlfcn.h>
 #include <epoxy/gl.h>
 // After epoxy, which brings the declarations of OpenGL.
 #define GLFW_INCLUDE_NONE
@@ -91,6 +92,14 @@ Result<GlWindow> GlWindow::open(const WindowOptions& options) {
 
 GLFWwindow* GlWindow::handle() const {
   return impl_->window;
+}
+
+std::string GlWindow::portalName() const {
+  // Of GLFW's libraries the one for X11 has it; what is linked is there either way.
+  using GetX11Window = unsigned long (*)(GLFWwindow*);
+  const auto get = reinterpret_cast<GetX11Window>(dlsym(RTLD_DEFAULT, "glfwGetX11Window"));
+  const unsigned long id = get ? get(impl_->window) : 0;
+  return id ? fmt::format("x11:{:x}", id) : std::string();
 }
 
 PixelSize GlWindow::framebufferSize() const {

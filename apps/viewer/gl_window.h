@@ -39,6 +39,8 @@ class GlWindow {
   ~GlWindow();
 
   GLFWwindow* handle() const;
+  /// As desktop portals name it: "x11:1a00007", or empty where it has no such name.
+  std::string portalName() const;
   PixelSize framebufferSize() const;
   PixelSize size() const;  ///< in units of the mouse, which some displays have fewer of than pixels
   /// How many of these units make what is one at 96 dpi.

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "apps/viewer/sky_control.h"
+#include "lambent/file/extension.h"
 #include "lambent/sky/make_aerial_perspective.h"
 #include "lambent/sky/make_sky.h"
 #include "lambent/sky/sky_light.h"
@@ -14,12 +15,6 @@
 namespace lambent::viewer {
 
 namespace {
-
-std::string lowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return extension;
-}
 
 Result<LoadedEnvironment> readEnvironment(const std::string& source,
                                           const asset::ReadOptions& reading,
@@ -66,7 +61,7 @@ Result<Loaded> loadedOf(Result<T> made) {
 
 Result<LoadedAsset> readAsset(const std::filesystem::path& path,
                               const asset::ReadOptions& reading) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = file::extensionOf(path);
   bool plain = extension == ".obj" || extension == ".ply";
   if (!plain) {
     const Result<bool> baked = asset::isAsset(path);

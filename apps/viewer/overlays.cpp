@@ -34,7 +34,29 @@ void helpTitle(std::string_view title) {
                      std::string(title).c_str());
 }
 
+const char* askedFor(FileQuestion::What what) {
+  using What = FileQuestion::What;
+  switch (what) {
+    case What::OpenAsset:
+      return "A baked .glb, a light (.exr .hdr .png .jpg .webp, LIGHT.json) or a saved view.";
+    case What::OpenLight:
+      return "A picture of what is around (.exr .hdr .png .jpg .webp) or a LIGHT.json.";
+    case What::SavePicture:
+      return "As .png.";
+    case What::SaveView:
+      return "As .json, which lambent view and lambent render --view take.";
+  }
+  return "";
+}
+
 }  // namespace
+
+std::string wordsOf(const Session::OwnQuestion& question) {
+  const bool saves = question.question.saves();
+  return fmt::format(
+      "No file dialog of the desktop: {}. {}", question.why,
+      saves ? "Type a name to save under." : "Type the file's name, or drop it on the window.");
+}
 
 void drawHelp(Session& session, const Layout& layout) {
   const PixelSize& window = layout.window;
@@ -91,6 +113,9 @@ void drawRemarks(const Session& session, const Layout& layout) {
                : fmt::format("reading {} …", reading);
   if (const auto share = session.loader().share(); share && !text.empty())
     text += fmt::format(" {:.0f}%", 100 * *share);
+  if (session.fileDialog.waiting())
+    text +=
+        (text.empty() ? "" : "\n") + std::string("The desktop asks for the file; Esc: never mind");
   for (const Notices::Remark& remark : session.notices.remarks())
     text += (text.empty() ? "" : "\n") + remark.text;
   if (!text.empty()) {
@@ -107,40 +132,47 @@ void drawRemarks(const Session& session, const Layout& layout) {
                             {0.5f, 0.5f});
     ImGui::SetNextWindowBgAlpha(0.0f);
     ImGui::Begin("nothing", nullptr, kOverlay | ImGuiWindowFlags_NoInputs);
-    ImGui::TextDisabled("Drop a baked asset here, or press O");
+    ImGui::TextDisabled("Drop a baked asset here, or open one (O)");
     ImGui::End();
   }
 }
 
 void Panels::drawQuestion(Session& session) {
-  const char* title = "Open a file";
-  if (session.desk.askForFile && !asking_) ImGui::OpenPopup(title);
-  asking_ = session.desk.askForFile;
+  const auto& own = session.ownQuestion();
+  const std::string title = (own ? titleOf(own->question.what) : "") + "###question";
+  if (own && !asking_) {
+    ImGui::OpenPopup(title.c_str());
+    file_ = own->question.name;
+  }
+  asking_ = own.has_value();
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({32 * ImGui::GetFontSize(), 0});
-  if (!ImGui::BeginPopupModal(title, nullptr,
+  if (!ImGui::BeginPopupModal(title.c_str(), nullptr,
                               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
     return;
-  if (!session.desk.askForFile) {
+  if (!own) {
     ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     return;
   }
-  ImGui::TextDisabled(
-      "A baked .glb, an environment (.exr .hdr .png .jpg), LIGHT.json, or a state.\n"
-      "Files can also be dropped on the window.");
+  const bool saves = own->question.saves();
+  ImGui::TextWrapped("%s", askedFor(own->question.what));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", wordsOf(*own).c_str());
+  ImGui::PopStyleColor();
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputText("##file", &file_, ImGuiInputTextFlags_EnterReturnsTrue);
-  const bool pressed = ImGui::Button("Open");
+  const bool pressed = ImGui::Button(saves ? "Save" : "Open");
   ImGui::SameLine();
   const bool cancelled = ImGui::Button("Cancel");
-  if ((entered || pressed) && !file_.empty()) session.open(file_);
-  if (entered || pressed || cancelled) {
-    session.desk.askForFile = false;
-    ImGui::CloseCurrentPopup();
-  }
+  const bool answered = (entered || pressed) && !file_.empty();
+  if (answered)
+    session.answerOwn(file_);
+  else if (entered || pressed || cancelled)
+    session.askNoMore();
+  if (!session.ownQuestion()) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 

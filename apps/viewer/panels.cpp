@@ -82,18 +82,25 @@ void Panels::drawFiles(Session& session, const PixelSize& picture) {
     ImGui::TextDisabled(
         "%s", fmt::format("{} vertices, {} bands", vertices, asset.transfer.bands).c_str());
   }
-  const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
-  if (ImGui::Button("Open…", {third, 0})) session.desk.askForFile = true;
+  using What = FileQuestion::What;
+  const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+  const auto button = [&](const char* name, const char* tip, What what, bool offered) {
+    ImGui::BeginDisabled(!offered);
+    if (ImGui::Button(name, {half, 0})) session.ask(what, picture);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  };
+  button("Open…", "A baked asset; also a light or a saved view (O)", What::OpenAsset, true);
   ImGui::SameLine();
-  ImGui::BeginDisabled(session.stage.empty());
-  if (ImGui::Button("Picture", {third, 0}))
-    session.saveScreenshot(session.freeName(".png"), picture);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Save the picture as PNG (S)");
-  ImGui::EndDisabled();
+  button("Open a light…", "A picture of what is around, or a LIGHT.json (Shift+O)", What::OpenLight,
+         true);
+  button("Save picture…", "As .png (Shift+S). S saves it at once, in the current folder",
+         What::SavePicture, !session.stage.empty());
   ImGui::SameLine();
-  if (ImGui::Button("View", {third, 0})) session.saveState(session.freeName(".json"));
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("Save the view, all that is set up here (Ctrl+S), for lambent render --view");
+  button("Save view…",
+         "As .json, which lambent view and lambent render --view take (Ctrl+Shift+S).\n"
+         "Ctrl+S saves it at once, in the current folder",
+         What::SaveView, true);
 }
 
 void Panels::drawLight(Session& session) {

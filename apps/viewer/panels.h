@@ -36,6 +36,8 @@ void drawTransfer(Session& session);
 void drawSurroundings(Session& session);
 void drawHelp(Session& session, const Layout& layout);
 void drawRemarks(const Session& session, const Layout& layout);
+/// Why the window asks for a file itself, and how it is answered.
+std::string wordsOf(const Session::OwnQuestion& question);
 void drawGraph(const FrameTimes& times);
 
 }  // namespace lambent::viewer

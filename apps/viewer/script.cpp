@@ -38,6 +38,9 @@ const std::string_view kScriptHelp =
   report                     one line of JSON: frame times, memory, OpenGL objects alive
   expect-error TEXT          the message that the last command left holds this; put it away
   expect-discs N             so many discs there are
+  await-dialog               wait until the desktop's file dialog has answered, and what it named is there
+  expect-question TEXT       the window itself asks for a file, and says this; leave it unanswered
+  answer FILE                what would be typed there, and wait
   repeat N … end             do what is between N times
   quit
 )";
@@ -80,6 +83,9 @@ constexpr Form kForms[] = {
     {"report", 0, 0, "report"},
     {"expect-error", 1, 1, "expect-error TEXT"},
     {"expect-discs", 1, 1, "expect-discs N"},
+    {"await-dialog", 0, 0, "await-dialog"},
+    {"expect-question", 1, 1, "expect-question TEXT"},
+    {"answer", 1, 1, "answer FILE"},
     {"repeat", 1, 1, "repeat N … end"},
     {"end", 0, 0, "end"},
     {"quit", 0, 0, "quit"},

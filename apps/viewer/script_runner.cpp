@@ -9,6 +9,7 @@
 
 #include "apps/viewer/actions.h"
 #include "apps/viewer/gestures.h"
+#include "apps/viewer/panels.h"
 #include "lambent/light/windowing.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/view/orbit.h"
@@ -314,6 +315,16 @@ Status ScriptRunner::expectError(const std::string& text, Session& session) cons
   return Status::ok();
 }
 
+Status ScriptRunner::expectQuestion(const std::string& text, Session& session) const {
+  const auto& own = session.ownQuestion();
+  if (!own) return report::failed("the window does not ask for a file");
+  const std::string words = wordsOf(*own);
+  if (words.find(text) == std::string::npos)
+    return report::failed(fmt::format("it does not say '{}' but: {}", text, words));
+  session.askNoMore();
+  return Status::ok();
+}
+
 Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene& scene) {
   Session& session = scene.session;
   const std::string& name = command.words[0];
@@ -325,6 +336,15 @@ Result<ScriptRunner::Step> ScriptRunner::run(const ScriptCommand& command, Scene
   if (name == "load" || name == "environment" || name == "state" || name == "drop")
     return runFile(command, scene);
   if (name == "sky" || (name == "drag" && word(1) == "sky")) return runSky(command, session);
+  if (name == "await-dialog")
+    return session.fileDialog.waiting() || session.busy() ? Step::Again : Step::Done;
+  if (name == "expect-question") return done(expectQuestion(word(1), session));
+  if (name == "answer") {
+    if (!begun_ && !session.ownQuestion())
+      return report::failed("the window does not ask for a file");
+    if (!begun_) session.answerOwn(word(1));
+    return session.busy() ? Step::Again : Step::Done;
+  }
   if (name == "set") {
     if (!begun_)
       if (Status s = set(word(1), word(2), scene); !s) return s.error();

@@ -35,6 +35,7 @@ class ScriptRunner {
   Result<Step> runSky(const ScriptCommand& command, Session& session);
   Status set(const std::string& name, const std::string& value, Scene& scene);
   Status expectError(const std::string& text, Session& session) const;
+  Status expectQuestion(const std::string& text, Session& session) const;
 
   Script script_;
   std::function<void(const std::string&)> print_;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lambent/file/atomic_file.h"
+#include "lambent/file/extension.h"
 #include "lambent/image/io.h"
 #include "lambent/sources/source.h"
 #include "lambent/view/orbit.h"
@@ -15,12 +16,6 @@
 namespace lambent::viewer {
 
 namespace {
-
-std::string lowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  return extension;
-}
 
 bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -49,19 +44,20 @@ void Session::openState(const std::filesystem::path& path) {
   auto read = view::readViewState(path);
   if (!read) return notices.problem(read.error());
   waiting_ = std::move(*read);
+  if (findLights_) waiting_->environment = findLights_(waiting_->environment, path);
   loader_.readEnvironment(waiting_->environment);
 }
 
 void Session::open(const std::filesystem::path& path) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = file::extensionOf(path);
   if (isOneOf(extension, {".glb", ".gltf", ".obj", ".ply"})) return openAsset(path);
-  if (isOneOf(extension, {".exr", ".hdr", ".png", ".jpg", ".jpeg"}))
+  if (isOneOf(extension, {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"}))
     return openEnvironment(path.string());
   if (extension == ".json")
     return saysLight(path) ? openEnvironment(path.string()) : openState(path);
   notices.problem(report::badInput(
       fmt::format("{}: the viewer shows baked assets (.glb), lights them with images (.exr, .hdr, "
-                  ".png, .jpg) or a LIGHT.json, and opens its own states (.json)",
+                  ".png, .jpg, .webp) or a LIGHT.json, and opens its own states (.json)",
                   path.filename().string())));
 }
 
@@ -73,7 +69,71 @@ void Session::nextEnvironment(int step) {
   openEnvironment(environments[std::size_t(((at + step) % count + count) % count)]);
 }
 
+void Session::ask(FileQuestion::What what, const PixelSize& picture) {
+  FileQuestion question{what, {}, {}, picture};
+  if (what == FileQuestion::What::SavePicture && stage.empty())
+    return saveScreenshot({}, picture);  // which says that there is nothing to save
+  std::error_code ignored;
+  if (question.saves()) {
+    question.name = freeName(what == FileQuestion::What::SavePicture ? ".png" : ".json").string();
+    question.folder = std::filesystem::current_path(ignored);
+  } else if (!stage.empty()) {
+    question.folder = std::filesystem::absolute(stage.path(), ignored).parent_path();
+  }
+  ownQuestion_.reset();
+  fileDialog.ask(std::move(question));
+}
+
+void Session::answer(const FileQuestion& question, std::filesystem::path path) {
+  using What = FileQuestion::What;
+  if (!question.saves()) return open(path);
+  if (!path.has_extension()) {
+    // Whoever was asked whether to write over a file was asked about the name without it.
+    path += question.what == What::SavePicture ? ".png" : ".json";
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored))
+      return notices.problem(report::badInput(fmt::format(
+          "{} is there already: to write over it, choose it by its whole name", path.string())));
+  }
+  question.what == What::SavePicture ? saveScreenshot(path, question.picture) : saveState(path);
+}
+
+void Session::answerOwn(const std::filesystem::path& path) {
+  const FileQuestion question = std::exchange(ownQuestion_, std::nullopt)->question;
+  std::error_code ignored;
+  if (question.saves() && std::filesystem::exists(path, ignored))
+    return notices.problem(report::badInput(
+        fmt::format("{} is there already: save under another name", path.string())));
+  answer(question, path);
+}
+
+void Session::askNoMore() {
+  ownQuestion_.reset();
+  fileDialog.giveUp();
+}
+
+void Session::takeFile() {
+  auto taken = fileDialog.take();
+  if (!taken) return;
+  auto& [question, told] = *taken;
+  switch (told.how) {
+    case FileAnswer::How::Chosen:
+      return answer(question, std::move(told.path));
+    case FileAnswer::How::Cancelled:
+      return;
+    case FileAnswer::How::NoDialog:
+      ownQuestion_ = OwnQuestion{std::move(question), std::move(told.text)};
+      return;
+    case FileAnswer::How::Failed:
+      return notices.problem(report::failed(fmt::format(
+          "{}. {}", told.text,
+          question.saves() ? "S and Ctrl+S save in the current folder without it"
+                           : "Drop the file on the window, or name it on the command line")));
+  }
+}
+
 bool Session::collect() {
+  takeFile();
   bool any = false;
   while (auto read = loader_.take()) {
     any = true;

@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "apps/viewer/file_dialog.h"
+#include "apps/viewer/light_finder.h"
 #include "apps/viewer/loader.h"
 #include "apps/viewer/notices.h"
 #include "apps/viewer/sky_control.h"
@@ -16,7 +19,7 @@ namespace lambent::viewer {
 
 /// What is switched on around the picture. Not part of a state.
 struct Desk {
-  bool panel = true, help = false, askForFile = false;
+  bool panel = true, help = false;
   bool turnEnvironment = false, turnObject = false;
   bool moveSurroundings = true;
   bool vsync = true;
@@ -36,6 +39,8 @@ class Session {
 
   /// Of all files that are opened from now on.
   void allow(const asset::ReadOptions& reading) { loader_.allow(reading); }
+  /// Of all states that are opened from now on.
+  void findLightsBy(LightFinder finder) { findLights_ = std::move(finder); }
   /// All of these read in the background; what is shown stays until the file is there, and for good
   /// if something is wrong with it.
   void openAsset(const std::filesystem::path& path);
@@ -44,6 +49,21 @@ class Session {
   /// Whatever it is: a baked .glb, an image, a LIGHT.json, a state.
   void open(const std::filesystem::path& path);
   void nextEnvironment(int step);
+
+  /// Has the desktop ask for a file, and does what the question is for once it is chosen; the window
+  /// itself asks where the desktop has no dialog.
+  void ask(FileQuestion::What what, const PixelSize& picture);
+  /// The question that the window itself has to ask, with why; nothing if there is none.
+  struct OwnQuestion {
+    FileQuestion question;
+    std::string why;  ///< no desktop does
+  };
+  const std::optional<OwnQuestion>& ownQuestion() const { return ownQuestion_; }
+  /// What was typed as its answer. No file is written over.
+  void answerOwn(const std::filesystem::path& path);
+  /// Whatever asks for a file is closed.
+  void askNoMore();
+  FileDialog fileDialog;
 
   /// The sky that is shown, or that a person has asked for and waits for; nothing if the light is
   /// another.
@@ -83,12 +103,16 @@ class Session {
   void saveState(const std::filesystem::path& path);
 
  private:
+  void takeFile();
+  void answer(const FileQuestion& question, std::filesystem::path path);
   void take(LoadedAsset loaded);
   void take(LoadedEnvironment loaded);
   void take(LoadedAir loaded);
   void nameEnvironment(const std::string& source, bool instead);
 
   Loader loader_;
+  LightFinder findLights_;
+  std::optional<OwnQuestion> ownQuestion_;
   std::optional<view::ViewState> waiting_;  ///< a state whose environment is being read
   std::optional<sky::SkyRequest> sky_;
   std::string skyRemark_;

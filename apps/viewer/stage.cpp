@@ -9,12 +9,6 @@ namespace lambent::viewer {
 
 namespace {
 
-bool sameOptions(const view::ViewState& a, const view::ViewState& b) {
-  return a.transfer == b.transfer && a.lobe == b.lobe &&
-         view::showingOf(a).softLobes == view::showingOf(b).softLobes && a.macro == b.macro &&
-         a.viewDependent == b.viewDependent;
-}
-
 /// Whether the pictures of two states are made of the same light: they may be developed otherwise.
 bool sameRadiance(view::ViewState a, const view::ViewState& b) {
   a.exposure = b.exposure, a.tone = b.tone;
@@ -59,7 +53,7 @@ Status Stage::show(LoadedAsset loaded, const view::ViewState& state) {
   asset_.emplace(std::move(loaded));
   possibilities_ = possibilitiesOf(*asset_->asset);
   box_ = scene::bounds(asset_->asset->scene);
-  options_ = state;
+  showing_ = view::showingOf(state);
   backdrop_.reset();
   size_ = {};
   drawn_.reset();
@@ -128,9 +122,9 @@ Status Stage::letAirIn(const view::ViewState& state, const PixelSize& size) {
 }
 
 Status Stage::prepare(const view::ViewState& state, const PixelSize& size, bool moving) {
-  if (!options_ || !sameOptions(*options_, state)) {
-    if (Status s = renderer_->choose(view::showingOf(state)); !s) return s;
-    options_ = state;
+  if (const shade::Showing showing = view::showingOf(state); showing_ != showing) {
+    if (Status s = renderer_->choose(showing); !s) return s;
+    showing_ = showing;
   }
   if (size != size_) {
     if (Status s = renderer_->resize(size.width, size.height); !s) return s;

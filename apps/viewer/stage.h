@@ -10,6 +10,7 @@
 #include "apps/viewer/surroundings.h"
 #include "lambent/image/image.h"
 #include "lambent/render/live_renderer.h"
+#include "lambent/shade/showing.h"
 #include "lambent/view/state_light.h"
 #include "lambent/view/view_state.h"
 
@@ -86,7 +87,8 @@ class Stage {
   std::shared_ptr<const sky::AirTable> air_;
   Mat3d environmentFromSun_ = Mat3d::Identity();
   std::optional<Drawn> drawn_;
-  std::optional<view::ViewState> options_, backdrop_;  ///< for which the renderer was set up
+  std::optional<shade::Showing> showing_;    ///< under which the renderer was set up
+  std::optional<view::ViewState> backdrop_;  ///< for which it was
   PixelSize size_;
   int samples_ = 0;
   bool settled_ = false;

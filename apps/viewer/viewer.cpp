@@ -61,7 +61,8 @@ double Viewer::rest() {
     lively = std::max(lively - 1, 0);
   } else {
     // Files that are being read and remarks that fade want a look now and then.
-    const bool watching = session.busy() || !session.notices.remarks().empty();
+    const bool watching =
+        session.busy() || session.fileDialog.waiting() || !session.notices.remarks().empty();
     const double longest = watching ? 0.05 : 0.5;
     const auto asleep = std::chrono::steady_clock::now();
     window.wait(longest);
@@ -148,6 +149,8 @@ Status openFirst(Viewer& viewer, const ViewerOptions& options) {
   Session& session = viewer.session;
   session.environments = options.environments;
   session.allow(options.reading);
+  session.findLightsBy(options.findLights);
+  session.fileDialog.setWindow(viewer.window.portalName());
   if (!options.environments.empty()) session.openEnvironment(options.environments.front());
   if (!options.asset.empty()) session.openAsset(options.asset);
   // The state last: it is meant for this asset.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/viewer/gl_window.h"
+#include "apps/viewer/light_finder.h"
 #include "apps/viewer/script.h"
 #include "apps/viewer/surroundings.h"
 #include "lambent/asset/read.h"
@@ -21,6 +22,7 @@ struct ViewerOptions {
   std::vector<std::string> environments;  ///< SOURCEs; the first is shown. None: a plain white sky
   std::filesystem::path state;            ///< a saved view, or empty
   asset::ReadOptions reading;             ///< of these, and of what is opened later
+  LightFinder findLights;                 ///< of these states, and of those that are opened later
   WindowOptions window;
   bool panel = true;
   std::optional<Script> script;  ///< runs it, and ends with it

@@ -38,6 +38,7 @@ struct Showing {
   static Showing of(std::optional<transfer::Kind> kind) {
     return {kind, kind, {}, true, true, true};
   }
+  bool operator==(const Showing&) const = default;
 };
 
 /// "best" for none, otherwise the kind's name: how files and people name such a choice.

@@ -3,12 +3,13 @@
 import json
 import math
 import os
+import shutil
 import struct
 import unittest
 import zlib
 
 from display import start_display
-from harness import BAD_INPUT, FAILED, USAGE, ToolTest, ball_obj, png
+from harness import BAD_INPUT, FAILED, TOOL, USAGE, ToolTest, ball_obj, hdr, png
 
 
 def read_png(path):
@@ -65,8 +66,8 @@ class View(ToolTest):
         cls.server.terminate()
         cls.server.wait()
 
-    def view(self, *args, code=0):
-        return self.run_tool("view", *args, code=code, env=self.display)
+    def view(self, *args, code=0, **options):
+        return self.run_tool("view", *args, code=code, env=self.display, **options)
 
     def script(self, text, *args, code=0):
         return self.view(*args, "--script", self.write("script.txt", text), "--size", "560x320",
@@ -221,6 +222,38 @@ class View(ToolTest):
             """, "ball.glb", "--view", "first.json")
         self.assertEqual(self.path("first.json").read_text(), self.path("second.json").read_text())
         self.assertEqual(mean_difference(self.path("first.png"), self.path("second.png")), 0.0)
+
+    def test_lights_of_the_page_and_beside_the_state_are_found(self):
+        """A state that the page saved names the lights that the page ships with."""
+        self.bake()
+        tool = self.path("bin/lambent")  # the page is looked for beside the executable
+        assets = self.path("share/lambent/viewer/assets")
+        for folder in (tool.parent, assets, self.path("saved")):
+            folder.mkdir(parents=True)
+        shutil.copy(TOOL, tool)
+        (assets.parent / "index.html").write_text("<!doctype html><title>page</title>\n")
+        (assets / "studio.hdr").write_bytes(hdr(8, 4))
+        self.write("saved/near.hdr", hdr(8, 4, (200, 20, 20, 129)))
+        for name, source in (("page", "assets/studio.hdr"), ("beside", "near.hdr+uniform:0.1")):
+            self.write(f"saved/{name}.json",
+                       json.dumps({"lambent": "view", "environment": {"source": source}}))
+        self.write("script.txt", """
+            set panel off
+            save-state first.json
+            screenshot first.png
+            drop saved/beside.json
+            save-state second.json
+            state saved/page.json
+            save-state third.json
+            """)
+        self.view("ball.glb", "--view", "saved/page.json", "--script", "script.txt", "--size",
+                  "280x160", executable=tool)
+        page = str(assets / "studio.hdr")
+        self.assertEqual([self.source(f"{name}.json") for name in ("first", "second", "third")],
+                         [page, "saved/near.hdr+uniform:0.1", page])
+        self.run_tool("render", "ball.glb", "--view", "saved/page.json", "-o", "render.png", "--size",
+                      "280x160", "-q", executable=tool)
+        self.assertLessEqual(mean_difference(self.path("first.png"), self.path("render.png")), 1.0)
 
     def test_damaged_files_leave_what_is_shown(self):
         asset = self.bake().read_bytes()

@@ -28,7 +28,8 @@ constexpr Named kTargets[] = {{"gltf", fuzz::gltf},     {"obj", fuzz::obj},
                               {"hdr", fuzz::hdr},       {"png", fuzz::png},
                               {"jpeg", fuzz::jpeg},     {"webp", fuzz::webp},
                               {"light", fuzz::light},   {"view", fuzz::view},
-                              {"source", fuzz::source}, {"atmosphere", fuzz::atmosphere}};
+                              {"source", fuzz::source}, {"atmosphere", fuzz::atmosphere},
+                              {"uri", fuzz::uri}};
 
 /// As much as a fuzzer's process may hold; sanitizers keep what was freed for a while.
 constexpr long kMostKibibytes = 1 << 20;

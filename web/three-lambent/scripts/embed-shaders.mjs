@@ -1,7 +1,8 @@
-// Writes src/generated/shaders.ts: the GLSL of this package (src/glsl) and what it shares with the
-// native renderer (shaders/ of the repository), as strings, and the constants of it that programs
-// need as well.
-import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+// Writes src/generated: the GLSL of this package (src/glsl) and what it shares with the native renderer
+// (shaders/ of the repository) as strings, and the constants of it that programs need as well. Each text
+// is a module of its own, and none has all of them: bundlers divide a program by modules.
+import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { bareGlsl } from "./bare-glsl.mjs";
 
 const kFolders = ["../../../shaders/", "../src/glsl/"].map((path) => new URL(path, import.meta.url));
 const kConstants = ["kMostDiscs"];
@@ -18,24 +19,21 @@ for (const folder of kFolders)
     texts.set(file, readFileSync(new URL(file, folder), "utf8"));
   }
 
-/** Without comments, indentation and empty lines, which a page need not fetch. */
-const bare = (text) =>
-  text
-    .replace(/\/\*[\s\S]*?\*\/|\/\/.*$/gm, "")
-    .split("\n")
-    .map((line) => line.trim())
-    .filter((line) => line !== "")
-    .map((line) => `${line}\n`)
-    .join("");
+const generated = new URL("../src/generated/", import.meta.url);
+rmSync(generated, { recursive: true, force: true });
+mkdirSync(generated, { recursive: true });
+const kHead = "// Made by scripts/embed-shaders.mjs.\n";
+const write = (name, text) => writeFileSync(new URL(`${name}.ts`, generated), kHead + text);
 
-let out = "// Made by scripts/embed-shaders.mjs.\n";
-for (const [file, text] of texts)
-  out += `export const ${nameOf(file)}: string = ${JSON.stringify(bare(text))};\n`;
-const all = [...texts.values()].join("\n");
-for (const name of kConstants) {
-  const found = [...all.matchAll(new RegExp(`^const int ${name} = (\\d+);`, "gm"))];
-  if (found.length !== 1) throw new Error(`${name} is declared ${found.length} times`);
-  out += `export const ${name} = ${found[0][1]};\n`;
+for (const [file, text] of texts) {
+  const name = nameOf(file);
+  write(name, `export const ${name}: string = ${JSON.stringify(bareGlsl(text))};\n`);
 }
-mkdirSync(new URL("../src/generated/", import.meta.url), { recursive: true });
-writeFileSync(new URL("../src/generated/shaders.ts", import.meta.url), out);
+const together = [...texts.values()].join("\n");
+let constants = "";
+for (const name of kConstants) {
+  const found = [...together.matchAll(new RegExp(`^const int ${name} = (\\d+);`, "gm"))];
+  if (found.length !== 1) throw new Error(`${name} is declared ${found.length} times`);
+  constants += `export const ${name} = ${found[0][1]};\n`;
+}
+write("constants", constants);

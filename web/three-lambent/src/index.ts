@@ -31,7 +31,7 @@ export {
 } from "./light/light.js";
 export { kLargestSun, sunOf, sunPoints, type SunPoint } from "./light/sun.js";
 export type { EquirectangularImage } from "./light/equirectangular.js";
-export { kMostDiscs, type Environment, type EnvironmentSky } from "./materials/environment-uniforms.js";
+export { kMostDiscs, type Environment, type EnvironmentSky } from "./materials/environment.js";
 export { EnvironmentBackground } from "./output/background.js";
 export { ToneMapper } from "./output/tone-mapper.js";
 export { filmic, srgbDecode, srgbEncode, toneGlsl, type ToneCurve } from "./output/tone.js";

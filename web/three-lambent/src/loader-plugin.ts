@@ -6,10 +6,15 @@ import { LambentAsset } from "./asset/asset.js";
 import { AssetSource, type IncidentMode } from "./asset/asset-source.js";
 import type { MeshEntry } from "./asset/mesh-source.js";
 import { coverageOf, kWhole } from "./materials/coverage.js";
-import { reflectanceOf } from "./asset/reflectance.js";
+import { extrasOf, type Extras } from "./asset/extras.js";
+import { isMirror, reflectanceOf } from "./asset/reflectance.js";
 import type { LambentNodes } from "./gpu/nodes.js";
-import { kExtensionName, LambentFormatError, type AssetDescription } from "./format/description.js";
-import { hasTransfer, readTransfer } from "./format/read.js";
+import {
+  hasTransfer,
+  kExtensionName,
+  LambentFormatError,
+  type AssetDescription,
+} from "./format/description.js";
 
 export interface LambentLoaderOptions {
   /**
@@ -54,6 +59,7 @@ export function lambentOf(gltf: Pick<GLTF, "userData">): LambentAsset {
 export class LambentLoaderPlugin {
   readonly name = kExtensionName;
   private description: AssetDescription | null = null;
+  private extras: Promise<Extras> | null = null;
 
   constructor(
     private readonly parser: GLTFParser,
@@ -70,15 +76,29 @@ export class LambentLoaderPlugin {
       bufferView: (index: number) =>
         parser.getDependency("bufferView", index) as Promise<ArrayBuffer>,
     };
-    return readTransfer(source).then((description) => {
-      this.description = description;
-    });
+    return import("./format/read.js")
+      .then(({ readTransfer }) => readTransfer(source))
+      .then((description) => {
+        this.description = description;
+        // Comes while the meshes do.
+        const { materials } = parser.json as { materials?: unknown };
+        const mirrors =
+          Array.isArray(materials) &&
+          materials.some((each) => isMirror(reflectanceOf(each, false)));
+        this.extras = extrasOf(description, mirrors);
+        this.extras.catch(() => {}); // afterRoot tells
+      });
   }
 
   /** Hands the meshes over to a LambentAsset. */
   afterRoot(gltf: GLTF): Promise<void> | null {
-    const { description, parser } = this;
-    if (!description) return null;
+    const { description, extras } = this;
+    if (!description || !extras) return null;
+    return extras.then((each) => this.relight(gltf, description, each));
+  }
+
+  private relight(gltf: GLTF, description: AssetDescription, extras: Extras): void {
+    const { parser } = this;
     const json = parser.json as {
       materials?: unknown[];
       meshes?: { primitives: { material?: number }[] }[];
@@ -104,10 +124,9 @@ export class LambentLoaderPlugin {
     // What no scene shows, nobody can relight.
     gltf.userData ??= {};
     const { incident = "auto", nodes = null } = this.options;
-    const source = new AssetSource(description, entries, incident, nodes);
+    const source = new AssetSource(description, entries, incident, extras, nodes);
     const meshes = entries.map(({ mesh }) => mesh);
     gltf.userData.lambent = new LambentAsset(gltf.scene, source, meshes);
-    return null;
   }
 }
 

@@ -16,6 +16,8 @@ import { kAirSize } from "../sky/air_data.js";
 import type { QuaternionLike } from "../light/light.js";
 import type { AerialPerspective } from "../sky/air.js";
 import type { SunMap } from "../gpu/sun-map.js";
+import { airSource } from "../materials/air-source.js";
+import type { AirMode } from "../materials/surroundings.js";
 import { stateOf } from "../materials/uniform-state.js";
 
 export interface AirOptions {
@@ -87,6 +89,11 @@ export class AssetAir {
   }
   get shafts(): boolean {
     return this.air !== null && this.wantsShafts;
+  }
+
+  /** Of fragment shaders. */
+  source(mode: AirMode): string {
+    return airSource(mode);
   }
 
   /** Where the asset stands in the air. */

@@ -4,6 +4,7 @@ import type { WebGLRenderer } from "three";
 import type { AssetDescription } from "../format/description.js";
 import type { LambentNodes } from "../gpu/nodes.js";
 import { SharedThings } from "../gpu/shared.js";
+import type { Extras } from "./extras.js";
 import { MeshSource, type MeshEntry } from "./mesh-source.js";
 
 /** How incident light comes to fragments: interpolated, or fetched at the triangle's corners. */
@@ -20,6 +21,7 @@ export class AssetSource {
     readonly description: AssetDescription,
     entries: readonly MeshEntry[],
     readonly incident: IncidentMode,
+    readonly extras: Extras,
     /** For WebGPURenderer. */
     readonly nodes: LambentNodes | null = null,
   ) {

@@ -11,24 +11,23 @@ import {
   type WebGLRenderer,
 } from "three";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
-import { canCapture } from "../gpu/local-capture.js";
 import { checkRenderer, isNodeRenderer, type AnyRenderer } from "../gpu/renderer.js";
 import { checkLight } from "../light/check.js";
 import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
-import type { AirMode } from "../materials/air-source.js";
 import { hasGrain } from "../materials/coverage.js";
-import { EnvironmentUniforms, type Environment } from "../materials/environment-uniforms.js";
+import { checkEnvironment, type Environment } from "../materials/environment.js";
+import type { AirMode } from "../materials/surroundings.js";
 import type { AerialPerspective } from "../sky/air.js";
 import { bandOf } from "../sh/basis.js";
 import { HarmonicRotation, matrixOfQuaternion } from "../sh/rotation.js";
 import { leastSofteningWindow } from "../sh/window.js";
 import { infoOf, kindsOf, type AssetInfo, type AssetKind } from "./info.js";
 import { adviseOnDrawing, adviseOnPlace, type Drawn } from "./advice.js";
-import { AssetAir, type AirOptions } from "./asset-air.js";
+import type { AirOptions, AssetAir } from "./asset-air.js";
 import type { AssetSource } from "./asset-source.js";
 import { checkTransfer, offers, type TransferChoice } from "./choices.js";
 import { stateOfAsset, takeFrom, type Followed, type Given } from "./given.js";
-import { capturedUniforms, Mirrors } from "./mirrors.js";
+import type { Mirrors } from "./mirrors.js";
 import { RelitMesh, type Choices, type Lights } from "./relit-mesh.js";
 import { kindWithoutBounces, SharpSun, sunNotes } from "./sharp-sun.js";
 
@@ -76,9 +75,8 @@ export class LambentAsset {
 
   private readonly source: AssetSource;
   private readonly relit: RelitMesh[];
-  private readonly environment = new EnvironmentUniforms();
-  /** @internal */
-  readonly air = new AssetAir();
+  /** @internal Of the first air that was set. */
+  air: AssetAir | null = null;
   private readonly screen = new FullScreenPass();
   private choice: TransferChoice = "best";
   /** @internal */
@@ -92,7 +90,7 @@ export class LambentAsset {
   private readonly assetLight: Float64Array;
   private readonly sunShare: Float64Array;
   private readonly sun: SharpSun;
-  private readonly mirrors: Mirrors;
+  private readonly mirrors: Mirrors | null;
   private done = "";
   private lost: { canvas: EventTarget; listener: () => void } | null = null;
 
@@ -109,13 +107,13 @@ export class LambentAsset {
     this.rotation = new HarmonicRotation(description.bands);
     this.assetLight = new Float64Array(3 * description.bands ** 2);
     this.sunShare = new Float64Array(3 * description.bands ** 2);
-    const captured = capturedUniforms();
+    const { mirrors } = source.extras;
+    this.mirrors = mirrors && new mirrors.Mirrors();
     this.sun = new SharpSun(source.meshes);
     const shared = {
       source,
-      environment: this.environment,
-      air: this.air.uniforms,
-      captured,
+      mirrors: this.mirrors,
+      air: () => this.air,
       sun: this.sun.uniforms,
       drawn: (mesh: RelitMesh, scene: Scene, object: Object3D) =>
         adviseOnDrawing(this.drawn, mesh, scene, object),
@@ -125,7 +123,7 @@ export class LambentAsset {
       const mesh = meshes[i];
       return mesh ? [new RelitMesh(mesh, each, shared)] : [];
     });
-    this.mirrors = new Mirrors(this.relit, this.sun.map.bounds, captured);
+    this.mirrors?.place(this.relit, this.sun.map.bounds);
     this.kinds = kindsOf(this.relit);
     this.info = infoOf(description, this.relit);
     const { said } = source;
@@ -251,13 +249,15 @@ export class LambentAsset {
    * @throws RangeError for metres that are none
    */
   setAir(air: AerialPerspective | null, options: AirOptions = {}): void {
-    this.air.set(air, options);
+    this.air ??= air && air.forAsset();
+    this.air?.set(air, options);
     this.given.air = { air, options };
   }
 
   /** What mirrors show behind the asset itself ({@link mirrorSize}); null: black. */
   setEnvironment(environment: Environment | null): void {
-    this.environment.set(environment);
+    checkEnvironment(environment);
+    this.mirrors?.environment.set(environment);
     this.given.environment = environment;
     this.drawn.environmentGiven = true;
   }
@@ -288,7 +288,7 @@ export class LambentAsset {
         mirrors: this.kinds.has("mirror") && !this.unlit,
         patches: this.kinds.has("bi-scale") && !this.unlit,
         sun: this.sun.shines,
-        air: this.air.wanted,
+        air: this.air?.wanted ?? false,
       });
     if (this.disposed)
       throw new Error("three-lambent: update() of an asset that was disposed of: load it again");
@@ -318,7 +318,7 @@ export class LambentAsset {
       sample: this.sample,
       sun: this.sun.shines,
       air: this.airMode,
-      captured: this.captureSize(renderer) > 0,
+      captured: (this.mirrors?.sizeOn(renderer, this.mirrorSize) ?? 0) > 0,
     };
     let due = false;
     for (const mesh of this.relit) due = mesh.prepare(renderer, choices) || due;
@@ -328,7 +328,7 @@ export class LambentAsset {
     if (this.unlit) return false;
     adviseOnPlace(this.drawn);
     this.sun.aim(this.root, this.sample, this.samples);
-    this.air.look(this.root);
+    this.air?.look(this.root);
     const relit = this.relight(renderer, due);
     this.showMirrors(renderer, choices);
     this.look(renderer, camera);
@@ -381,42 +381,38 @@ export class LambentAsset {
 
   /** @internal Shafts of light only where there is a Sun to throw them. */
   get airMode(): AirMode {
-    if (!this.air.wanted) return "none";
+    if (!this.air?.wanted) return "none";
     return this.air.shafts && this.sun.shines ? "shafts" : "air";
-  }
-
-  /** 0: mirrors see nothing of the asset. */
-  private captureSize(renderer: WebGLRenderer): number {
-    if (this.mirrors.count === 0 || isNodeRenderer(renderer) || !canCapture(renderer)) return 0;
-    return Math.min(Math.floor(this.mirrorSize), renderer.capabilities.maxCubemapSize);
   }
 
   /** Captures what mirrors see, if that has changed. */
   private showMirrors(renderer: WebGLRenderer, choices: Choices): void {
-    const size = this.captureSize(renderer);
-    if (!(size > 0)) return this.mirrors.forget();
+    const { mirrors } = this;
+    if (!mirrors) return;
+    const size = mirrors.sizeOn(renderer, this.mirrorSize);
+    if (!(size > 0)) return mirrors.forget();
     const { samples, sample, ...rest } = choices;
     const { matrixWorld } = this.root;
-    const air = choices.air !== "none";
+    const air = choices.air === "none" ? null : this.air;
     // What mirrors in captures show of the world.
-    const around = this.mirrors.count > 1 && [
-      this.environment.state,
+    const around = mirrors.seeEachOther && [
+      mirrors.environment.state,
       matrixWorld.elements.slice(0, 12), // not where the asset stands
-      air && this.air.uniforms.airGround.value,
+      air?.uniforms.airGround.value,
     ];
     const state = [
       JSON.stringify([size, rest, around, this.relit.map(({ mesh }) => mesh.visible)]),
       this.assetLight.join(),
       this.sun.state,
-      air ? this.air.state : "",
+      air?.state ?? "",
       // Grain is another one in each of the pictures that are added up.
       this.relit.some(({ coverage }) => hasGrain(coverage)) ? sample % samples : "",
     ].join(" ");
-    if (!this.mirrors.due(state)) return;
+    if (!mirrors.due(state)) return;
     // Mirrors see what no camera does.
     if (this.needsSunMap) this.sun.drawMap(renderer, this.root, undefined);
-    this.air.lookWithoutShafts();
-    this.mirrors.draw(renderer, state, matrixWorld, size, meanRadiance(this.assetLight));
+    this.air?.lookWithoutShafts();
+    mirrors.draw(renderer, state, matrixWorld, size, meanRadiance(this.assetLight));
   }
 
   private get needsSunMap(): boolean {
@@ -426,7 +422,7 @@ export class LambentAsset {
   private look(renderer: WebGLRenderer, camera: Camera | undefined): void {
     const shafts = this.airMode === "shafts";
     if (shafts || this.needsSunMap) this.sun.drawMap(renderer, this.root, camera);
-    if (shafts) this.air.lookForShafts(this.root, camera, this.sun.map.bounds, this.sun.map);
+    if (shafts) this.air!.lookForShafts(this.root, camera, this.sun.map.bounds, this.sun.map);
   }
 
   /** What a lost context took along, or another renderer has, is made again from the file's bytes. */
@@ -437,7 +433,7 @@ export class LambentAsset {
       this.source.forget(renderer);
       for (const mesh of this.relit) mesh.forget();
       this.sun.map.forget();
-      this.mirrors.forget();
+      this.mirrors?.forget();
       this.done = "";
     };
     if (this.lost) {
@@ -474,9 +470,8 @@ export class LambentAsset {
   private freeOwn(): void {
     this.lost?.canvas.removeEventListener("webglcontextrestored", this.lost.listener);
     this.lost = null;
-    this.environment.dispose();
+    this.mirrors?.dispose();
     this.sun.map.dispose();
-    this.mirrors.forget();
     this.screen.dispose();
   }
 }

@@ -1,7 +1,7 @@
 // What somebody gave an asset to be seen under, and how clones follow that.
 
 import type { Disc, LambentLight } from "../light/light.js";
-import type { Environment } from "../materials/environment-uniforms.js";
+import type { Environment } from "../materials/environment.js";
 import type { AerialPerspective } from "../sky/air.js";
 import type { AirOptions } from "./asset-air.js";
 import type { LambentAsset } from "./asset.js";

@@ -3,23 +3,18 @@
 
 import {
   BufferAttribute,
-  DataTexture,
-  NearestFilter,
-  RGIntegerFormat,
   Texture,
-  UnsignedShortType,
   Vector3,
   type BufferGeometry,
   type Material,
   type Mesh,
-  type WebGLRenderer,
 } from "three";
 import type { Numbers, PrimitiveTransfer, Vectors } from "../format/description.js";
 import type { Coverage } from "../materials/coverage.js";
 import { bandOf, evaluateHarmonics } from "../sh/basis.js";
 import { clampedCosineMoments } from "../sh/zonal.js";
 import { isBody } from "./closed.js";
-import type { Reflectance } from "./reflectance.js";
+import { isMirror, type Reflectance } from "./reflectance.js";
 import { hasBacks } from "./two-sides.js";
 
 /** A mesh as the loader made it, with what the file says of it. */
@@ -79,7 +74,7 @@ export class MeshSource {
   }
 
   get isMirror(): boolean {
-    return Math.max(...this.reflectance.mirror) > 0;
+    return isMirror(this.reflectance);
   }
 
   /**
@@ -143,28 +138,6 @@ export class MeshSource {
       }
     }
     return { encoding: "float32", data, scales: null, run: 0 };
-  }
-
-  /** @throws Error if the device's textures are too small */
-  idMapTexture(renderer: WebGLRenderer): DataTexture {
-    const map = this.transfer!.biScale!.idMap!;
-    const most = renderer.capabilities.maxTextureSize;
-    if (map.width > most || map.height > most)
-      throw new Error(
-        `three-lambent: ${this.what}: an id map of ${map.width}×${map.height} texels, but this ` +
-          `device takes ${most} a side: make it smaller`,
-      );
-    const texture = new DataTexture(
-      map.ids as Uint16Array<ArrayBuffer>,
-      map.width,
-      map.height,
-      RGIntegerFormat,
-      UnsignedShortType,
-    );
-    texture.internalFormat = "RG16UI";
-    texture.minFilter = texture.magFilter = NearestFilter;
-    texture.needsUpdate = true;
-    return texture;
   }
 
   /** Off every GPU; they come back when they are drawn. */

@@ -11,9 +11,13 @@ import {
   type Matrix4,
   type WebGLRenderer,
 } from "three";
-import { LocalCapture } from "../gpu/local-capture.js";
+import { captured as capturedGlsl } from "../generated/captured.js";
+import { localCapture } from "../generated/localCapture.js";
+import { canCapture, LocalCapture } from "../gpu/local-capture.js";
+import { environmentGlsl, EnvironmentUniforms } from "../materials/environment-uniforms.js";
+import { isNodeRenderer } from "../gpu/renderer.js";
 import { boxOf, capturePlace } from "./mirror-place.js";
-import type { RelitMesh } from "./relit-mesh.js";
+import type { Choices, RelitMesh } from "./relit-mesh.js";
 
 /** Mirrors with a capture of their own, the largest ones; others look into the nearest. */
 const kMostCaptures = 8;
@@ -48,34 +52,35 @@ interface Captured {
   mirrors: RelitMesh[];
 }
 
-/** Of src/glsl/captured.glsl. */
-export const capturedUniforms = () => ({
-  capturing: { value: false },
-  worldFromAsset: { value: new Matrix3() }, // a turn
-  captureScale: { value: new Vector2(1, 1) },
-});
-
 export class Mirrors {
-  /** How many there are. */
-  readonly count: number;
+  readonly environment = new EnvironmentUniforms();
+  /** Of src/glsl/captured.glsl: of all surfaces that mirrors see. */
+  readonly uniforms = {
+    capturing: { value: false },
+    worldFromAsset: { value: new Matrix3() }, // a turn
+    captureScale: { value: new Vector2(1, 1) },
+  };
+  /** Text of the shaders of all surfaces that mirrors see. */
+  readonly capturedSource = capturedGlsl;
+  private meshes: readonly RelitMesh[] = [];
   private readonly captured: Captured[] = [];
   private readonly scene = new Scene();
   private readonly copies: Mesh[] = [];
   private done = "";
 
+  /** Text of a mirror's shader: of the environment and, where it is captured, of the asset. */
+  source({ captured }: Pick<Choices, "captured">): string {
+    return environmentGlsl + (captured ? localCapture : "");
+  }
+
   /**
-   * @param bounds of all of the asset
-   * @param uniforms of all of its surfaces
+   * @param meshes all of the asset
+   * @param bounds of it
    */
-  constructor(
-    private readonly meshes: readonly RelitMesh[],
-    bounds: Box3,
-    private readonly uniforms: ReturnType<typeof capturedUniforms>,
-  ) {
+  place(meshes: readonly RelitMesh[], bounds: Box3): void {
+    this.meshes = meshes;
     const size = (mesh: RelitMesh) => diagonalOf(boxOfMesh(mesh));
     const mirrors = meshes.filter(({ isMirror }) => isMirror).sort((a, b) => size(b) - size(a));
-    this.count = mirrors.length;
-    if (mirrors.length === 0) return;
     this.uniforms.captureScale.value.y = 1 / Math.max(diagonalOf(bounds), 1e-30);
     for (const mesh of mirrors)
       if (this.captured.length < kMostCaptures)
@@ -86,6 +91,18 @@ export class Mirrors {
     this.scene.add(...this.copies);
   }
 
+  /** Texels of a side of captures. 0: mirrors see nothing of the asset. */
+  sizeOn(renderer: WebGLRenderer, wanted: number): number {
+    if (this.captured.length === 0 || isNodeRenderer(renderer)) return 0;
+    if (!canCapture(renderer)) return 0;
+    return Math.min(Math.floor(wanted), renderer.capabilities.maxCubemapSize);
+  }
+
+  /** Whether mirrors show mirrors, and in these the world. */
+  get seeEachOther(): boolean {
+    return this.captured.reduce((sum, { mirrors }) => sum + mirrors.length, 0) > 1;
+  }
+
   private nearest(to: Vector3): Captured {
     const away = ({ capture }: Captured) => capture.from.distanceTo(to);
     return this.captured.reduce((a, b) => (away(b) < away(a) ? b : a));
@@ -93,7 +110,7 @@ export class Mirrors {
 
   /** Whether captures are not of this state, which tells all that they show. */
   due(state: string): boolean {
-    return this.count > 0 && state !== this.done;
+    return state !== this.done;
   }
 
   /**
@@ -147,5 +164,10 @@ export class Mirrors {
       capture.dispose();
     }
     this.done = "";
+  }
+
+  dispose(): void {
+    this.forget();
+    this.environment.dispose();
   }
 }

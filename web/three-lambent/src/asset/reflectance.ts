@@ -77,3 +77,6 @@ export function reflectanceOf(material: unknown, colored: boolean): Reflectance 
   if (Math.abs(metal - metallic) >= 1e-4) return plain;
   return found;
 }
+
+/** Whether a surface is a mirror. */
+export const isMirror = ({ mirror }: Reflectance) => Math.max(...mirror) > 0;

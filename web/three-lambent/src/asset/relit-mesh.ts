@@ -2,7 +2,6 @@
 // both a choice wants.
 
 import {
-  BufferAttribute,
   Vector3,
   Vector4,
   type CubeTexture,
@@ -18,27 +17,25 @@ import type { FullScreenPass } from "../gpu/full-screen-pass.js";
 import type { LambentNodes } from "../gpu/nodes.js";
 import { isNodeRenderer, type NodeRenderer } from "../gpu/renderer.js";
 import { LitTexture } from "../gpu/lit-texture.js";
-import { kGroupsAFetch, kNumbersOf, RttTexture } from "../gpu/rtt-texture.js";
 import { Lease } from "../gpu/shared.js";
 import {
   TransferPass,
   TransferRows,
-  TurnFrames,
-  TurnPass,
   type LightPass,
   type MatrixShape,
 } from "../gpu/transfer-pass.js";
-import type { AirMode } from "../materials/air-source.js";
 import { coverageUniforms, hasGaps, type Coverage } from "../materials/coverage.js";
-import type { EnvironmentUniforms } from "../materials/environment-uniforms.js";
 import { incidentGroups } from "../materials/group-macros.js";
 import { RelitMaterial, type RelitNodes, type RelitShaders } from "../materials/relit-material.js";
-import { patchShaders, surfaceShaders, type SurfaceShape } from "../materials/relit-shaders.js";
+import { surfaceShaders, type SurfaceShape } from "../materials/relit-shaders.js";
+import { kNoAir, type AirMode, type Surroundings } from "../materials/surroundings.js";
 import { bandOf } from "../sh/basis.js";
 import { shownLobe } from "../sh/lobe.js";
+import type { AssetAir } from "./asset-air.js";
 import type { AssetSource } from "./asset-source.js";
-import { kindOf, macroOf, type TransferChoice } from "./choices.js";
+import { kindOf, type TransferChoice } from "./choices.js";
 import type { MeshSource } from "./mesh-source.js";
+import type { Mirrors } from "./mirrors.js";
 import { kindWithoutBounces } from "./sharp-sun.js";
 
 /** What somebody wants to see. */
@@ -73,9 +70,9 @@ export interface Lights {
 /** What all meshes of an instance share. */
 export interface Shared {
   source: AssetSource;
-  environment: EnvironmentUniforms;
-  air: Record<string, IUniform>;
-  captured: Record<string, IUniform>;
+  mirrors: Mirrors | null;
+  /** null: there never was any. */
+  air(): AssetAir | null;
   /** Of the Sun. */
   sun: Record<string, IUniform>;
   /** Before a mesh, or another one with its material, is drawn. */
@@ -87,7 +84,8 @@ export interface Shared {
 // Besides the light: position and u, normal and v, colour or tangent, diffuse radiance, depths.
 const kOtherVaryings = 6;
 
-interface Lit {
+/** Results, and what makes them. */
+export interface Lit {
   texture: LitTexture;
   pass: LightPass;
   /** The lobe's moments apply. */
@@ -100,8 +98,10 @@ interface Lit {
 export class RelitMesh {
   readonly material: RelitMaterial;
   private built = "";
-  private lits: Lit[] = [];
-  private lease: Lease | null = null;
+  /** @internal */
+  lits: Lit[] = [];
+  /** @internal What of the asset it uses. */
+  lease: Lease | null = null;
   /** Of the renderer that it is prepared for, if that draws by nodes. */
   private nodes: LambentNodes | null = null;
   /** Of shaders/local_capture.glsl. */
@@ -149,7 +149,8 @@ export class RelitMesh {
     return this.built !== "";
   }
 
-  private get description(): AssetDescription {
+  /** @internal */
+  get description(): AssetDescription {
     return this.shared.source.description;
   }
 
@@ -194,34 +195,39 @@ export class RelitMesh {
     const { reflectance, map, colored, uv } = source;
     const gaps = hasGaps(source.coverage);
     const plain = { map, colored, uv, gaps };
-    const { air, captured } = choices;
     const covered = gaps ? coverageUniforms(source.coverage, source.number) : {};
-    const around = { ...covered, ...this.surroundings(choices) };
     if (choices.unlit) {
       const uniforms = { ...covered, reflectance: { value: new Vector3(...reflectance.base) } };
       return this.surface({ kind: "unlit", ...plain }, uniforms);
     }
+    if (transfer?.biScale && !source.isMirror)
+      return shared.source.extras.patches!.buildPatch(this, renderer, choices);
+    const [surroundings, around] = this.surroundings(choices);
+    const all = { ...covered, ...around };
     if (source.isMirror) {
+      const mirrors = shared.mirrors!;
       const uniforms = {
-        ...around,
-        ...shared.environment.uniforms,
+        ...all,
+        ...mirrors.environment.uniforms,
         ...this.captureUniforms,
         reflectance: { value: new Vector3(...reflectance.mirror) },
       };
-      return this.surface({ kind: "mirror", ...plain, air, captured }, uniforms);
+      const shown = mirrors.source(choices);
+      return this.surface({ kind: "mirror", ...plain, surroundings, shown }, uniforms);
     }
-    if (transfer?.biScale) return this.buildPatch(renderer, choices);
     if (transfer && (transfer.vectors || transfer.matrices))
-      return this.buildSurface(renderer, transfer, choices, around);
-    return this.surface({ kind: "black", ...plain, air, captured }, around);
+      return this.buildSurface(renderer, transfer, choices, surroundings, all);
+    return this.surface({ kind: "black", ...plain, surroundings }, all);
   }
 
-  /** Of what the asset is seen through, and by. */
-  private surroundings({ air, captured }: Choices): Record<string, IUniform> {
-    return {
-      ...(air !== "none" && this.shared.air),
-      ...(captured && this.shared.captured),
-    };
+  /** @internal What the asset is seen through, and by. */
+  surroundings({ air: mode, captured }: Choices): [Surroundings, Record<string, IUniform>] {
+    const air = mode === "none" ? null : this.shared.air();
+    const mirrors = captured ? this.shared.mirrors : null;
+    return [
+      { air: air?.source(mode) ?? kNoAir, captured: mirrors?.capturedSource ?? "" },
+      { ...air?.uniforms, ...mirrors?.uniforms },
+    ];
   }
 
   /** What a mirror shows of the asset; `from` times captureScale. null: nothing. */
@@ -232,8 +238,8 @@ export class RelitMesh {
     if (capture) u.captureFrom.value.copy(capture.from);
   }
 
-  /** Stored numbers, which all instances read, and what a pass makes of them here. */
-  private add(
+  /** @internal Stored numbers, which all instances read, and what a pass makes of them here. */
+  add(
     renderer: WebGLRenderer,
     what: { name: string; numbers: () => Numbers; shape: MatrixShape; rows: number },
     rest: Partial<Omit<Lit, "texture" | "pass">> = {},
@@ -260,6 +266,7 @@ export class RelitMesh {
     renderer: WebGLRenderer,
     transfer: PrimitiveTransfer,
     choices: Choices,
+    surroundings: Surroundings,
     uniforms: Record<string, IUniform>,
   ): RelitShaders | RelitNodes {
     const { description, source } = this;
@@ -324,8 +331,7 @@ export class RelitMesh {
       diffuse: uniforms.diffuseLit !== undefined,
       sun: direct && (direct === "unshadowed" ? ("open" as const) : ("hidden" as const)),
       sunShare: apart,
-      air: choices.air,
-      captured: choices.captured,
+      surroundings,
       ...{ albedoOutside, lobeBands, fetch, map, colored, uv },
       gaps: hasGaps(source.coverage),
       texelUv: grid?.texCoord === 1,
@@ -341,69 +347,8 @@ export class RelitMesh {
     return this.add(renderer, what, { light: "sun" }).target.texture;
   }
 
-  private buildPatch(renderer: WebGLRenderer, choices: Choices): RelitShaders {
-    const { description, source } = this;
-    const lease = this.lease!;
-    const transfer = this.transfer!;
-    const biScale = transfer.biScale!;
-    const rtt = description.rtts[biScale.rtt];
-    const rttTexture = lease.take(`rtt ${biScale.rtt}`, () => new RttTexture(rtt));
-    const rows = rtt.bands ** 2;
-    const scales = rttTexture.scales();
-    const macro = macroOf(description, transfer, choices.transfer, choices.macro);
-    let texture: LitTexture;
-    if (macro) {
-      const columns = biScale.bands ** 2;
-      const shape = { rows: columns, columns, channels: macro.channels };
-      const name = macro === biScale.shadowed ? "shadowed macro" : "macro";
-      texture = this.add(renderer, { name, numbers: () => macro.numbers, shape, rows }, { scales });
-    } else {
-      texture = new LitTexture(renderer.capabilities, transfer.receivers, rows, source.what);
-      const frames = lease.take(
-        `${source.key} frames`,
-        () => new TurnFrames(source.normals(), biScale.tangents, rtt.bands, source.what),
-      );
-      const pass = new TurnPass(frames, texture);
-      this.lits.push({ texture, pass, glossy: false, scales, light: "whole" });
-    }
-
-    const fetch = this.mustFetch(renderer, rows);
-    if (!source.geometry.hasAttribute("lambentTangent"))
-      source.geometry.setAttribute("lambentTangent", new BufferAttribute(biScale.tangents, 3));
-    this.mesh.geometry = fetch ? source.expanded() : source.geometry;
-    const uniforms: Record<string, IUniform> = {
-      incidentLit: { value: texture.target.texture },
-      incidentALine: { value: texture.receiversALine },
-      rtt: { value: rttTexture.texture },
-      rttRows: { value: rttTexture.rows },
-      views: { value: rtt.views },
-      viewDependent: { value: choices.viewDependent },
-      levelCount: { value: rttTexture.levelCount },
-      levels: { value: rttTexture.levels },
-    };
-    if (biScale.idMap) {
-      const idMap = lease.take(`${source.key} ids`, () => source.idMapTexture(renderer));
-      uniforms.idMap = { value: idMap };
-      const each = rtt.size.map((size) => 1 / (size * biScale.scale));
-      uniforms.periodsPerMetre = { value: Float32Array.from(each) };
-    } else {
-      uniforms.tiles = { value: Float32Array.from(biScale.tiles) };
-    }
-    const { encoding } = rtt.numbers;
-    const shape = {
-      bands: rtt.bands,
-      numbers: kNumbersOf[encoding],
-      groupsAFetch: kGroupsAFetch[encoding],
-      fetch,
-      filter: choices.filter,
-      idMap: biScale.idMap !== null,
-      air: choices.air,
-      captured: choices.captured,
-    };
-    return patchShaders(shape, { ...uniforms, ...this.surroundings(choices) });
-  }
-
-  private mustFetch(renderer: WebGLRenderer, coefficients: number): boolean {
+  /** @internal Whether fragments find so many coefficients by themselves. */
+  mustFetch(renderer: WebGLRenderer, coefficients: number): boolean {
     const { incident } = this.shared.source;
     // Of WebGPU's devices many have no more than fifteen varyings of four numbers.
     if (this.nodes) return true;

@@ -5,6 +5,12 @@ export const kExtensionName = "LAMBENT_radiance_transfer";
 /** The major version of the format that this package reads. Any minor version of it will do. */
 export const kFormatMajor = 1;
 
+/** Whether a document says that it carries transfer. */
+export function hasTransfer(json: unknown): boolean {
+  const extensions = (json as { extensions?: unknown } | null)?.extensions;
+  return typeof extensions === "object" && extensions !== null && kExtensionName in extensions;
+}
+
 /** Numbers as the file stores them. */
 export interface Numbers {
   encoding: "float16" | "float32" | "snorm8";

@@ -29,12 +29,6 @@ const kMostCounted = 2 ** 31 - 1;
 const kTangentLength = 1e-3;
 const kTangentLean = 1e-2;
 
-/** Whether a document says that it carries transfer. */
-export function hasTransfer(json: unknown): boolean {
-  const extensions = (json as { extensions?: unknown } | null)?.extensions;
-  return typeof extensions === "object" && extensions !== null && kExtensionName in extensions;
-}
-
 function checkVersion(root: Fields): string {
   const version = root.string("version");
   const match = /^(\d+)\.(\d+)$/.exec(version);

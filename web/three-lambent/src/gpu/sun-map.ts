@@ -27,15 +27,13 @@ import {
   type Texture,
   type WebGLRenderer,
 } from "three";
-import {
-  baseColor,
-  baseColorMap,
-  coverage as coverageGlsl,
-  sunMapCutFrag,
-  sunMapCutVert,
-  sunMapFrag,
-  sunMapVert,
-} from "../generated/shaders.js";
+import { baseColor } from "../generated/baseColor.js";
+import { baseColorMap } from "../generated/baseColorMap.js";
+import { coverage as coverageGlsl } from "../generated/coverage.js";
+import { sunMapCutFrag } from "../generated/sunMapCutFrag.js";
+import { sunMapCutVert } from "../generated/sunMapCutVert.js";
+import { sunMapFrag } from "../generated/sunMapFrag.js";
+import { sunMapVert } from "../generated/sunMapVert.js";
 import { worldFromTangent, type Vector } from "../light/frames.js";
 import { coverageUniforms, hasGaps, mapUniforms, type Coverage } from "../materials/coverage.js";
 import { reversesDepth } from "./depth.js";

@@ -1,32 +1,22 @@
 // M L on the GPU: one pass for each block of transfer, drawn when the light changed.
 
 import {
-  FloatType,
   GLSL3,
-  DataTexture,
-  NearestFilter,
   NoBlending,
   RawShaderMaterial,
-  RGBAFormat,
   Vector3,
   type DataArrayTexture,
   type WebGLRenderer,
 } from "three";
 import type { Numbers } from "../format/description.js";
-import {
-  pack,
-  passMain,
-  passVert,
-  rowPlace,
-  sh,
-  tangentFrame,
-  transferFrag,
-  turnFrag,
-} from "../generated/shaders.js";
+import { pack } from "../generated/pack.js";
+import { passMain } from "../generated/passMain.js";
+import { passVert } from "../generated/passVert.js";
+import { rowPlace } from "../generated/rowPlace.js";
+import { transferFrag } from "../generated/transferFrag.js";
 import type { FullScreenPass } from "./full-screen-pass.js";
 import type { LitTexture } from "./lit-texture.js";
 import { layoutUniform, textureOfRows, type RowLayout } from "./row-texture.js";
-import { turnSamples } from "./turn-samples.js";
 
 const kHeader = `precision highp float;
 precision highp int;
@@ -35,7 +25,8 @@ precision highp sampler2DArray;
 precision highp usampler2D;
 `;
 
-function passMaterial(
+/** Of a pass that draws results. */
+export function passMaterial(
   fragment: string,
   uniforms: Record<string, { value: unknown }>,
 ): RawShaderMaterial {
@@ -149,87 +140,6 @@ ${rowPlace}${transferFrag}${pack}${passMain}`,
     factors: Float32Array,
   ): void {
     lightColumns(light, this.shape.columns, this.light);
-    this.material.uniforms.factors.value = factors;
-    screen.render(renderer, this.material, this.lit.target);
-  }
-
-  dispose(): void {
-    this.material.dispose();
-  }
-}
-
-/** Tangent frames of vertices on the GPU, and what turns light into them. */
-export class TurnFrames {
-  readonly normals: DataArrayTexture;
-  readonly tangents: DataArrayTexture;
-  readonly layout: RowLayout;
-  readonly samples: DataTexture;
-
-  /** @param bands of the light; more of them are cut */
-  constructor(
-    normals: Float32Array,
-    tangents: Float32Array,
-    readonly bands: number,
-    what: string,
-  ) {
-    const [first, second] = [normals, tangents].map((data) => textureOfRows(data, 3, what));
-    this.normals = first.texture;
-    this.tangents = second.texture;
-    this.layout = first.layout;
-    const { texels, width } = turnSamples(bands);
-    this.samples = new DataTexture(
-      texels as Float32Array<ArrayBuffer>,
-      width,
-      bands * bands,
-      RGBAFormat,
-      FloatType,
-    );
-    this.samples.minFilter = this.samples.magFilter = NearestFilter;
-    this.samples.needsUpdate = true;
-  }
-
-  dispose(): void {
-    for (const texture of [this.normals, this.tangents, this.samples]) texture.dispose();
-  }
-}
-
-/** Light turned into the tangent frames of vertices, which nothing hides it from. */
-export class TurnPass implements LightPass {
-  private readonly material: RawShaderMaterial;
-  private readonly light: Float32Array;
-
-  /** @param frames what it reads; others may read it too */
-  constructor(
-    frames: TurnFrames,
-    private readonly lit: LitTexture,
-  ) {
-    const { bands } = frames;
-    this.light = new Float32Array(3 * bands * bands);
-    this.material = passMaterial(
-      `#define LAMBENT_ROWS ${lit.rows}
-#define LAMBENT_TEXELS ${lit.texels}
-#define LAMBENT_BANDS ${bands}
-${sh}${rowPlace}${tangentFrame}${turnFrag}${pack}${passMain}`,
-      {
-        normals: { value: frames.normals },
-        tangents: { value: frames.tangents },
-        frameRows: { value: layoutUniform(frames.layout) },
-        samples: { value: frames.samples },
-        light: { value: this.light },
-        factors: { value: null },
-        receivers: { value: lit.receivers },
-        receiversALine: { value: lit.receiversALine },
-      },
-    );
-  }
-
-  run(
-    renderer: WebGLRenderer,
-    screen: FullScreenPass,
-    light: ArrayLike<number>,
-    factors: Float32Array,
-  ): void {
-    for (let i = 0; i < this.light.length; ++i) this.light[i] = i < light.length ? light[i] : 0;
     this.material.uniforms.factors.value = factors;
     screen.render(renderer, this.material, this.lit.target);
   }

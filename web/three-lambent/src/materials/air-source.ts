@@ -1,30 +1,26 @@
 // What a shader that looks through the air includes.
 
-import {
-  aerialPerspective,
-  airBehind,
-  airMaps,
-  airTexels,
-  phaseFunction,
-  shafts,
-} from "../generated/shaders.js";
-
-export type AirMode = "none" | "air" | "shafts";
+import { aerialPerspective } from "../generated/aerialPerspective.js";
+import { airBehind } from "../generated/airBehind.js";
+import { airMaps } from "../generated/airMaps.js";
+import { airTexels } from "../generated/airTexels.js";
+import { phaseFunction } from "../generated/phaseFunction.js";
+import { shafts } from "../generated/shafts.js";
+import { defines, flag } from "./defines.js";
+import { kNoAir, type AirMode } from "./surroundings.js";
 
 /**
  * `vec3 seenThroughAir(vec3 away, vec3 sent)` and `vec3 seenBehindAir(vec3 from, vec3 direction, vec3
  * radiance)` where there is air; the defines in any case.
  */
 export function airSource(mode: AirMode): string {
-  const defines =
-    `#define LAMBENT_AIR ${mode === "none" ? 0 : 1}\n` +
-    `#define LAMBENT_SHAFTS ${mode === "shafts" ? 1 : 0}\n`;
-  if (mode === "none") return defines;
+  if (mode === "none") return kNoAir;
+  const withShafts = mode === "shafts";
   return [
-    defines,
+    defines({ AIR: 1, SHAFTS: flag(withShafts) }),
     phaseFunction,
     aerialPerspective,
-    mode === "shafts" ? shafts : "",
+    withShafts ? shafts : "",
     airMaps,
     airTexels,
     airBehind,

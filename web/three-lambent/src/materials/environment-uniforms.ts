@@ -1,4 +1,4 @@
-// What mirrors and the background show.
+// What mirrors and the background show, as their shaders are told.
 
 import {
   DataTexture,
@@ -13,47 +13,14 @@ import {
   type IUniform,
   type Texture,
 } from "three";
-import { environment, environmentMap, kMostDiscs } from "../generated/shaders.js";
-import type { DirectionLike, Disc, QuaternionLike, Rgb } from "../light/light.js";
+import { environment } from "../generated/environment.js";
+import { environmentMap } from "../generated/environmentMap.js";
+import type { DirectionLike, QuaternionLike } from "../light/light.js";
+import { checkEnvironment, kMostDiscs, type Environment } from "./environment.js";
 import { stateOf } from "./uniform-state.js";
-
-export { kMostDiscs };
 
 /** `vec3 environmentRadiance(vec3 worldDirection)`. */
 export const environmentGlsl = environment + environmentMap;
-
-/** The environment as mirrors and {@link EnvironmentBackground} show it. */
-export interface Environment {
-  /**
-   * Latitude-longitude, in the layout of three's EquirectangularReflectionMapping. Looked up
-   * without mipmaps, bilinear, whatever its own filters are. null: no map.
-   */
-  texture?: Texture | null;
-  /** worldFromEnvironment: how the map is turned. The discs stand in the world. */
-  rotation?: QuaternionLike;
-  /** Times the texture's values. Default 1. */
-  intensity?: number;
-  /** At most {@link kMostDiscs}. */
-  discs?: readonly Disc[];
-  /** Radiance from everywhere, beside the rest. */
-  uniform?: Rgb;
-  /** What is seen above a horizon, however far one looks into it: a sky. */
-  sky?: EnvironmentSky | null;
-}
-
-/** A sky above a horizon, smooth but for where it ends. */
-export interface EnvironmentSky {
-  /**
-   * Columns as of a latitude-longitude map. Rows as three keeps a texture (no flipY): the last is
-   * the zenith, the first the horizon itself, row r of n the elevation
-   * horizon + (π/2 − horizon) (r/(n − 1))².
-   */
-  texture: Texture;
-  /** Elevation of the horizon, radians. Default 0. */
-  horizon?: number;
-  /** worldFromSky: its own frame has +y up. */
-  rotation?: QuaternionLike;
-}
 
 const turnOf = (q: QuaternionLike = { x: 0, y: 0, z: 0, w: 1 }) =>
   new Quaternion(q.x, q.y, q.z, q.w).normalize();
@@ -98,10 +65,7 @@ export class EnvironmentUniforms {
   /** @throws RangeError for more discs than can be shown */
   set(environment: Environment | null): void {
     const { texture = null, intensity = 1, discs = [], uniform } = environment ?? {};
-    if (discs.length > kMostDiscs)
-      throw new RangeError(
-        `three-lambent: ${discs.length} discs, where ${kMostDiscs} can be shown`,
-      );
+    checkEnvironment(environment);
     const u = this.uniforms;
     this.use("environmentMap", texture);
     u.hasEnvironmentMap.value = texture !== null;

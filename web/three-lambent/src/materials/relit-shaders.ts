@@ -1,39 +1,25 @@
 // The shaders of relit surfaces. They write linear radiance; drawn onto the canvas, three's own
 // tone mapping, colour space and fog follow, as for its own materials.
 
-import { Vector2, Vector3, type IUniform, type Texture } from "three";
-import {
-  baseColor,
-  baseColorMap,
-  captured,
-  coverage,
-  incident,
-  incidentTexture,
-  lobe,
-  localCapture,
-  patchFrag,
-  patchPlace,
-  rowPlace,
-  rttFootprint,
-  rttLookUp,
-  rttResponse,
-  rttTexture,
-  sh,
-  shadingNormal,
-  shadingPoint,
-  sunLight,
-  sunShadow,
-  surfaceFrag,
-  surfaceVert,
-  tangentFrame,
-  texelReceivers,
-  viewSquare,
-} from "../generated/shaders.js";
-import { airSource, type AirMode } from "./air-source.js";
+import { Vector3, type IUniform, type Texture } from "three";
+import { baseColor } from "../generated/baseColor.js";
+import { baseColorMap } from "../generated/baseColorMap.js";
+import { coverage } from "../generated/coverage.js";
+import { incident } from "../generated/incident.js";
+import { incidentTexture } from "../generated/incidentTexture.js";
+import { lobe } from "../generated/lobe.js";
+import { sh } from "../generated/sh.js";
+import { shadingNormal } from "../generated/shadingNormal.js";
+import { shadingPoint } from "../generated/shadingPoint.js";
+import { sunLight } from "../generated/sunLight.js";
+import { sunShadow } from "../generated/sunShadow.js";
+import { surfaceFrag } from "../generated/surfaceFrag.js";
+import { surfaceVert } from "../generated/surfaceVert.js";
+import { texelReceivers } from "../generated/texelReceivers.js";
 import { mapUniforms } from "./coverage.js";
-import { environmentGlsl } from "./environment-uniforms.js";
-import { eachGroup, incidentGroups, responseMacros } from "./group-macros.js";
+import { defines, flag, incidentDefines } from "./defines.js";
 import type { RelitShaders } from "./relit-material.js";
+import { kAlone, type Surroundings } from "./surroundings.js";
 
 /** LAMBENT_KIND of surface.frag.glsl. */
 export const kSurfaceKind = { vertices: 0, texels: 1, mirror: 2, black: 3, unlit: 4 } as const;
@@ -50,10 +36,9 @@ export interface SurfaceShape {
   /** A sharp Sun shines on it, and can be hidden; what is known of it is to be taken out. */
   sun?: "open" | "hidden" | null;
   sunShare?: boolean;
-  /** What it is seen through. */
-  air?: AirMode;
-  /** Mirrors see it; a mirror sees the asset. */
-  captured?: boolean;
+  surroundings?: Surroundings;
+  /** Of a mirror: what it shows. */
+  shown?: string;
   /** It may be there in parts alone. */
   gaps?: boolean;
   map: Texture | null;
@@ -61,37 +46,6 @@ export interface SurfaceShape {
   uv: boolean;
   /** Texels lie by a second set of texture coordinates. */
   texelUv?: boolean;
-}
-
-/** What of meso-structure decides about its shaders. */
-export interface PatchShape {
-  bands: number;
-  /** LAMBENT_NUMBERS of rtt_response.glsl, and groups of numbers in 16 bytes. */
-  numbers: 0 | 1 | 2;
-  groupsAFetch: number;
-  fetch: boolean;
-  filter: boolean;
-  idMap: boolean;
-  air: AirMode;
-  captured: boolean;
-}
-
-const flag = (value: unknown) => (value ? 1 : 0);
-
-function defines(values: Record<string, string | number>): string {
-  return Object.entries(values)
-    .map(([name, value]) => `#define LAMBENT_${name} ${value}\n`)
-    .join("");
-}
-
-/** What incident.glsl and incident_texture.glsl want before them. */
-function incidentDefines(coefficients: number, interpolated: boolean): string {
-  return defines({
-    GROUPS: incidentGroups(coefficients),
-    "EACH_GROUP(DO)": eachGroup(coefficients),
-    INTERPOLATED: flag(interpolated),
-    LIGHT_PLACE: "ivec2",
-  });
 }
 
 /** A surface without meso-structure. Uniforms of its results are the caller's to set. */
@@ -104,7 +58,7 @@ export function surfaceShaders(
   const map = shape.uv ? shape.map : null;
   const glossy = coefficients > 0 && (vertices || shape.kind === "texels");
   const fetch = shape.fetch && glossy && vertices;
-  const mirror = shape.kind === "mirror";
+  const { air, captured } = shape.surroundings ?? kAlone;
   const sun = shape.sun === "hidden" ? 2 : flag(shape.sun);
   const common = defines({
     KIND: kSurfaceKind[shape.kind],
@@ -121,7 +75,7 @@ export function surfaceShaders(
     SUN: sun,
     SUN_SHARE: flag(shape.sunShare),
     ALPHA: flag(shape.gaps),
-    CAPTURED: flag(shape.captured),
+    CAPTURED: flag(captured),
   });
   const light = glossy ? incidentDefines(coefficients, vertices && !fetch) : "";
   const parts = [
@@ -137,10 +91,9 @@ export function surfaceShaders(
     shape.kind === "texels" ? texelReceivers : "",
     sun === 2 ? sunShadow : "",
     sun ? sunLight : "",
-    airSource(shape.air ?? "none"),
-    shape.captured ? captured : "",
-    mirror ? environmentGlsl : "",
-    mirror && shape.captured ? localCapture : "",
+    air,
+    captured,
+    shape.shown ?? "",
     surfaceFrag,
   ];
   const vertexParts = [common, light, glossy ? incidentTexture : "", surfaceVert];
@@ -152,58 +105,5 @@ export function surfaceShaders(
       ...(map && mapUniforms(map)),
       ...uniforms,
     },
-  };
-}
-
-/** A surface with meso-structure. */
-export function patchShaders(
-  shape: PatchShape,
-  uniforms: Record<string, IUniform>,
-): RelitShaders {
-  const coefficients = shape.bands ** 2;
-  const common = defines({
-    KIND: kSurfaceKind.vertices,
-    VERTICES: 1,
-    DIFFUSE: 0,
-    GLOSSY: 0,
-    PATCH: 1,
-    SUN_SHARE: 0,
-    ALPHA: 0,
-    FETCH: flag(shape.fetch),
-    UV: 1,
-    TEXEL_UV: 0,
-    COLOR: 0,
-    CAPTURED: flag(shape.captured),
-    NUMBERS: shape.numbers,
-    FILTER: flag(shape.filter),
-    ID_MAP: flag(shape.idMap),
-    RESPONSE: responseMacros(coefficients, shape.groupsAFetch),
-    RTT_PLACE: "ivec3",
-  });
-  const light = incidentDefines(coefficients, !shape.fetch);
-  const parts = [
-    common,
-    light,
-    incident,
-    incidentTexture,
-    rowPlace,
-    rttResponse,
-    rttTexture,
-    viewSquare,
-    rttFootprint,
-    rttLookUp,
-    tangentFrame,
-    shadingNormal,
-    shadingPoint,
-    patchPlace,
-    airSource(shape.air),
-    shape.captured ? captured : "",
-    patchFrag,
-  ];
-  const vertexParts = [common, light, incidentTexture, surfaceVert];
-  return {
-    vertex: vertexParts.join("\n"),
-    fragment: parts.join("\n"),
-    uniforms: { pixelWidth: { value: new Vector2() }, ...uniforms },
   };
 }

@@ -9,14 +9,12 @@ import {
   Vector4,
 } from "three";
 import type { LambentAsset } from "../asset/asset.js";
+import { backgroundFrag } from "../generated/backgroundFrag.js";
+import { backgroundVert } from "../generated/backgroundVert.js";
+import type { Environment } from "../materials/environment.js";
+import { environmentGlsl, EnvironmentUniforms } from "../materials/environment-uniforms.js";
 import { isNodeRenderer } from "../gpu/renderer.js";
-import { airSource, type AirMode } from "../materials/air-source.js";
-import { backgroundFrag, backgroundVert } from "../generated/shaders.js";
-import {
-  environmentGlsl,
-  EnvironmentUniforms,
-  type Environment,
-} from "../materials/environment-uniforms.js";
+import { kNoAir, type AirMode } from "../materials/surroundings.js";
 
 /**
  * Shows an environment behind everything, looked up as mirrors look it up (three's own background
@@ -81,18 +79,15 @@ export class EnvironmentBackground extends Mesh<BufferGeometry, ShaderMaterial> 
   }
 
   private makeMaterial(): ShaderMaterial {
-    const { asset } = this;
+    const air = this.asset?.air;
     return new ShaderMaterial({
       vertexShader: backgroundVert,
-      fragmentShader: `${environmentGlsl}${airSource(this.air)}${backgroundFrag}`,
+      fragmentShader: `${environmentGlsl}${air?.source(this.air) ?? kNoAir}${backgroundFrag}`,
       uniforms: {
         worldFromClip: { value: new Matrix4() },
         eye: { value: new Vector4() },
         ...this.shown.uniforms,
-        ...(asset && {
-          ...asset.air.uniforms,
-          assetFromWorld: { value: asset.air.assetFromWorld },
-        }),
+        ...(air && { ...air.uniforms, assetFromWorld: { value: air.assetFromWorld } }),
       },
       depthWrite: false,
     });

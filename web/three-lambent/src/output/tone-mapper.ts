@@ -8,7 +8,8 @@ import {
   type WebGLRenderer,
   type WebGLRenderTarget,
 } from "three";
-import { outputFrag, passVert } from "../generated/shaders.js";
+import { outputFrag } from "../generated/outputFrag.js";
+import { passVert } from "../generated/passVert.js";
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { isNodeRenderer } from "../gpu/renderer.js";
 import { toneGlsl, type ToneCurve } from "./tone.js";

@@ -4,7 +4,7 @@
 // f(x) = (x + a x²) / (1 + a x + a x²), a = 2, of the family that reinhard2002photographic eq. 3
 // opens.
 
-import { tone } from "../generated/shaders.js";
+import { tone } from "../generated/tone.js";
 
 export type ToneCurve = "filmic" | "linear";
 

@@ -12,7 +12,7 @@ import { useFrame, useThree, type ThreeElements } from "@react-three/fiber";
 import type { LambentAsset as Asset } from "../asset/asset.js";
 import type { AirOptions } from "../asset/asset-air.js";
 import type { Disc, LambentLight } from "../light/light.js";
-import type { Environment } from "../materials/environment-uniforms.js";
+import type { Environment } from "../materials/environment.js";
 import type { AerialPerspective } from "../sky/air.js";
 import { useLambent, type UseLambentOptions } from "./use-lambent.js";
 

@@ -2,6 +2,7 @@
 // ground under a simulated sky. As sky::AirTable, and shaders/aerial_perspective.glsl.
 
 import { DataTexture, FloatType, NearestFilter, RGBAFormat, Vector3 } from "three";
+import { AssetAir } from "../asset/asset-air.js";
 import type { DirectionLike, Rgb } from "../light/light.js";
 import {
   AirData,
@@ -110,6 +111,13 @@ export class AerialPerspective {
   seen(radiance: Rgb, direction: DirectionLike, metres: number): [number, number, number] {
     const { extinction, inScattered } = this.between(direction, metres);
     return extinction.map((f, c) => f * radiance[c] + inScattered[c]) as [number, number, number];
+  }
+
+  /**
+   * @internal What an asset is seen through it with: who has no air has no part of the package for it.
+   */
+  forAsset(): AssetAir {
+    return new AssetAir();
   }
 
   dispose(): void {

@@ -6,7 +6,7 @@
 
 import type { DataTexture } from "three";
 import { LambentLight, type DirectionLike, type Disc, type Rgb } from "../light/light.js";
-import type { Environment, EnvironmentSky } from "../materials/environment-uniforms.js";
+import type { Environment, EnvironmentSky } from "../materials/environment.js";
 import { analyticSky, domeOf, type AnalyticModel, type AnalyticSky } from "./analytic_skies.js";
 import { shownRgb } from "./color.js";
 import { domeTexture, projectDome } from "./dome_light.js";

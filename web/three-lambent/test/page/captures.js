@@ -2,7 +2,7 @@
 // are, looked up along rays.
 import * as THREE from "three";
 import { LocalCapture } from "../dist/gpu/local-capture.js";
-import { localCapture } from "../dist/generated/shaders.js";
+import { localCapture } from "../dist/generated/localCapture.js";
 
 const renderer = new THREE.WebGLRenderer({ antialias: false });
 
