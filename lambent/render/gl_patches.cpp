@@ -70,7 +70,7 @@ std::vector<PatchTriangle> gatherTriangles(const scene::Mesh& mesh, const BiScal
         (mesh.positions[j] - mesh.positions[i]).cross(mesh.positions[k] - mesh.positions[i]);
     Vec3 alongX, alongY;
     if (biScale.patch.idMap()) {
-      const shade::UvSteps steps = shade::uvSteps(mesh, std::uint32_t(t));
+      const scene::UvSteps steps = scene::uvSteps(mesh, std::uint32_t(t));
       alongX = steps.u, alongY = steps.v;
     } else {
       const shade::PatchGradient g = shade::patchGradient(biScale.patch, mesh, std::uint32_t(t));

@@ -73,8 +73,9 @@ Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfaceP
     probes = probesOf(Vec2(gradient.x.dot(axes.longer), gradient.y.dot(axes.longer)),
                       Vec2(gradient.x.dot(axes.shorter), gradient.y.dot(axes.shorter)),
                       Vec2(float(level.width), float(level.height)));
-    places = patchPlaces(biScale_.patch, point.uv,
-                         biScale_.patch.idMap() ? uvSteps(mesh_, triangle) : UvSteps{}, gradient);
+    places = patchPlaces(
+        biScale_.patch, point.uv,
+        biScale_.patch.idMap() ? scene::uvSteps(mesh_, triangle) : scene::UvSteps{}, gradient);
   } else {
     places.add(patchPlace(biScale_.patch, point.uv), 1.0f);
   }

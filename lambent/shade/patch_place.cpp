@@ -19,20 +19,6 @@ Vec2 patchPlace(const transfer::Patch& patch, const Vec2& uv) {
   return q - Vec2(q.array().floor());
 }
 
-UvSteps uvSteps(const scene::Mesh& mesh, std::uint32_t triangle) {
-  const auto [i, j, k] = mesh.triangles[triangle];
-  const Vec3d e1 = (mesh.positions[j] - mesh.positions[i]).cast<double>();
-  const Vec3d e2 = (mesh.positions[k] - mesh.positions[i]).cast<double>();
-  const Eigen::Vector2d d1 = (mesh.uvs[j] - mesh.uvs[i]).cast<double>();
-  const Eigen::Vector2d d2 = (mesh.uvs[k] - mesh.uvs[i]).cast<double>();
-  const double area = d1.x() * d2.y() - d2.x() * d1.y();
-  if (area == 0.0) return {};
-  const UvSteps steps{((d2.y() * e1 - d1.y() * e2) / area).cast<float>(),
-                      ((d1.x() * e2 - d2.x() * e1) / area).cast<float>()};
-  if (!steps.u.allFinite() || !steps.v.allFinite()) return {};
-  return steps;
-}
-
 PatchGradient patchGradient(const transfer::Patch& patch, const Vec2& rttSize,
                             const Mat3& worldFromPatch) {
   return {worldFromPatch.col(0) / (rttSize.x() * patch.scale),
@@ -59,7 +45,7 @@ PatchGradient patchGradient(const transfer::Patch& patch, const scene::Mesh& mes
   return gradient;
 }
 
-PatchPlaces patchPlaces(const transfer::Patch& patch, const Vec2& uv, const UvSteps& steps,
+PatchPlaces patchPlaces(const transfer::Patch& patch, const Vec2& uv, const scene::UvSteps& steps,
                         const PatchGradient& gradient) {
   PatchPlaces places;
   const transfer::IdMap* map = patch.idMap();

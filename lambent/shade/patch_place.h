@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "lambent/scene/scene.h"
+#include "lambent/scene/uv_steps.h"
 #include "lambent/transfer/bi_scale.h"
 
 namespace lambent::shade {
@@ -25,12 +26,6 @@ struct PatchPlaces {
   }
 };
 
-/// World space, metres: a step of 1 in u, or v, over a triangle; zero where its uvs are degenerate.
-struct UvSteps {
-  Vec3 u = Vec3::Zero(), v = Vec3::Zero();
-};
-UvSteps uvSteps(const scene::Mesh& mesh, std::uint32_t triangle);
-
 /// How q changes along the surface: a step d (metres, world) moves it by (x · d, y · d).
 struct PatchGradient {
   Vec3 x = Vec3::Zero(), y = Vec3::Zero();
@@ -49,7 +44,7 @@ PatchGradient patchGradient(const transfer::Patch& patch, const scene::Mesh& mes
 /// place, at their mean, with the sum of their bilinear weights. So within a piece of the patch
 /// places are smooth, however closely one looks, and where pieces meet each fades into the other
 /// over one texel, along a smooth line. Without a map: the one place.
-PatchPlaces patchPlaces(const transfer::Patch& patch, const Vec2& uv, const UvSteps& steps,
+PatchPlaces patchPlaces(const transfer::Patch& patch, const Vec2& uv, const scene::UvSteps& steps,
                         const PatchGradient& gradient);
 
 }  // namespace lambent::shade

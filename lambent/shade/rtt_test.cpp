@@ -167,7 +167,7 @@ struct TwoPieces {
            (second ? Vec2(0.37f, 0.61f) : Vec2(0, 0));
   }
   PatchPlaces at(const Vec2& uv) const {
-    return patchPlaces(patch, uv, uvSteps(mesh, uv.x() > 1 - uv.y() ? 0 : 1), gradient);
+    return patchPlaces(patch, uv, scene::uvSteps(mesh, uv.x() > 1 - uv.y() ? 0 : 1), gradient);
   }
 };
 
@@ -211,13 +211,14 @@ TEST(PatchPlaces, TakeWhatHasNoSlopeAndWhatIsNoNumber) {
   const TwoPieces pieces(0.125f);
   for (const float u : {0.0f, 0.5f, 1.0f, -3.0f, std::nanf("")}) {
     double share = 0;
-    const PatchPlaces places = patchPlaces(pieces.patch, Vec2(u, 0.5f), UvSteps{}, PatchGradient{});
+    const PatchPlaces places =
+        patchPlaces(pieces.patch, Vec2(u, 0.5f), scene::UvSteps{}, PatchGradient{});
     for (int k = 0; k < places.count; ++k) share += places.share[k];
     EXPECT_NEAR(share, 1.0, 1e-5) << u;
   }
   scene::Mesh flat = pieces.mesh;
   flat.uvs.assign(4, Vec2(0.5f, 0.5f));
-  EXPECT_EQ(uvSteps(flat, 0).u, Vec3(0, 0, 0));
+  EXPECT_EQ(scene::uvSteps(flat, 0).u, Vec3(0, 0, 0));
 }
 
 // A position that covers many pixels is no tile: seen closely, what lies between two changes evenly.

@@ -226,7 +226,7 @@ TEST(PatchPlaces, AreTheLibrarys) {
   mapped.place = map;
   floats::idMap = &map;
   // Steps along two axes of the world, and the gradient that gives what the map has.
-  const shade::UvSteps steps{Vec3(2, 0, 0), Vec3(0, 3, 0)};
+  const scene::UvSteps steps{Vec3(2, 0, 0), Vec3(0, 3, 0)};
   const shade::PatchGradient gradient{
       Vec3(alongX.x() * float(map.width) / 2, alongY.x() * float(map.height) / 3, 0),
       Vec3(alongX.y() * float(map.width) / 2, alongY.y() * float(map.height) / 3, 0)};
