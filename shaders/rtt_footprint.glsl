@@ -9,7 +9,7 @@ struct FootprintAxes {
 };
 
 struct Probes {
-  float level;
+  float level, between;
   int count;
   vec2 stride;
 };
@@ -31,8 +31,12 @@ Probes probesOf(vec2 longer, vec2 shorter, vec2 positions) {
     b = swapped;
     along = shorter;
   }
-  Probes probes = Probes(0.0, 1, vec2(0.0));
-  if (!(a > 1.0)) return probes;
+  Probes probes = Probes(0.0, 0.0, 1, vec2(0.0));
+  if (!(a > 1.0)) {
+    float close = 2.0 - 2.0 * a;
+    probes.between = min(close, 1.0);
+    return probes;
+  }
   float width = max(max(b, 1.0), a / float(kMostProbes));
   float beyond = a * a - width * width;
   if (beyond > 0.04 * width * width) {

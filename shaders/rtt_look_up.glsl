@@ -58,9 +58,11 @@ vec3 filtered(vec2 q, Probes probes) {
       if (share == 0.0) continue;
       int k = which == 0 ? finer : coarser;
       ivec4 level = levels[k];
-      // Level 0 at the nearest position: the one whose cell the place lies in.
-      vec2 cell = at * vec2(level.xy) - (k == 0 ? 0.0 : 0.5);
-      vec2 low = floor(cell), high = k == 0 ? vec2(0.0) : cell - low;
+      // Level 0 at the nearest position, whose cell the place lies in, but where it is seen closely.
+      bool tile = k == 0 && probes.between == 0.0;
+      vec2 cell = at * vec2(level.xy) - (tile ? 0.0 : 0.5);
+      vec2 low = floor(cell), high = tile ? vec2(0.0) : cell - low;
+      if (k == 0 && !tile) high = clamp((high - 0.5) / probes.between + 0.5, 0.0, 1.0);
       for (int corner = 0; corner < 4; ++corner) {
         ivec2 right = ivec2(corner & 1, corner >> 1);
         vec2 part = mix(1.0 - high, high, bvec2(right));
@@ -80,7 +82,7 @@ vec3 averaged(vec2 q, mat3 worldFromPatch, vec3 toViewer, float width, vec3 x, v
   Probes probes = probesOf(vec2(dot(x, axes.longer), dot(y, axes.longer)),
                            vec2(dot(x, axes.shorter), dot(y, axes.shorter)), vec2(levels[0].xy));
   // What filtered() would give, without its loops.
-  if (probes.level == 0.0 && probes.count == 1) return nearest(q);
+  if (probes.level == 0.0 && probes.count == 1 && probes.between == 0.0) return nearest(fract(q));
   return filtered(q, probes);
 }
 #endif

@@ -40,8 +40,8 @@ struct PatchVertex {
 
 struct PatchTriangle {
   float normal[3], unused0;
-  float gradientX[3], unused1;
-  float gradientY[3], unused2;
+  float alongX[3], unused1;
+  float alongY[3], unused2;
 };
 
 std::vector<PatchVertex> gatherVertices(const scene::Mesh& mesh, const BiScale& biScale,
@@ -68,13 +68,19 @@ std::vector<PatchTriangle> gatherTriangles(const scene::Mesh& mesh, const BiScal
     const auto [i, j, k] = mesh.triangles[t];
     const Vec3 n =
         (mesh.positions[j] - mesh.positions[i]).cross(mesh.positions[k] - mesh.positions[i]);
-    shade::PatchGradient g;
-    if (!biScale.patch.idMap()) g = shade::patchGradient(biScale.patch, mesh, std::uint32_t(t));
+    Vec3 alongX, alongY;
+    if (biScale.patch.idMap()) {
+      const scene::UvSteps steps = scene::uvSteps(mesh, std::uint32_t(t));
+      alongX = steps.u, alongY = steps.v;
+    } else {
+      const shade::PatchGradient g = shade::patchGradient(biScale.patch, mesh, std::uint32_t(t));
+      alongX = g.x, alongY = g.y;
+    }
     triangles.push_back({{n.x(), n.y(), n.z()},
                          0.0f,
-                         {g.x.x(), g.x.y(), g.x.z()},
+                         {alongX.x(), alongX.y(), alongX.z()},
                          0.0f,
-                         {g.y.x(), g.y.y(), g.y.z()},
+                         {alongY.x(), alongY.y(), alongY.z()},
                          0.0f});
   }
   return triangles;

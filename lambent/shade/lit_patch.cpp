@@ -63,6 +63,7 @@ Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfaceP
   const RttViews views = viewsAround(pyramid_->views, viewDependent_ ? seen : Vec3(Vec3::UnitZ()));
 
   RttProbes probes;
+  PatchPlaces places;
   if (filter_) {
     const PatchGradient gradient = biScale_.patch.idMap()
                                        ? patchGradient(biScale_.patch, rttSize_, frame)
@@ -72,6 +73,11 @@ Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfaceP
     probes = probesOf(Vec2(gradient.x.dot(axes.longer), gradient.y.dot(axes.longer)),
                       Vec2(gradient.x.dot(axes.shorter), gradient.y.dot(axes.shorter)),
                       Vec2(float(level.width), float(level.height)));
+    places = patchPlaces(
+        biScale_.patch, point.uv,
+        biScale_.patch.idMap() ? scene::uvSteps(mesh_, triangle) : scene::UvSteps{}, gradient);
+  } else {
+    places.add(patchPlace(biScale_.patch, point.uv), 1.0f);
   }
 
   const std::size_t stride = std::size_t(pyramid_->stride());
@@ -79,7 +85,10 @@ Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfaceP
   const float *a = light_.data() + i * stride, *b = light_.data() + j * stride,
               *c = light_.data() + k * stride;
   for (std::size_t n = 0; n < stride; ++n) light[n] = w * a[n] + u * b[n] + v * c[n];
-  return respond(*pyramid_, patchPlace(biScale_.patch, point.uv), probes, views, light.data());
+  Rgb sum = Rgb::Zero();
+  for (int p = 0; p < places.count; ++p)
+    sum += places.share[p] * respond(*pyramid_, places.q[p], probes, views, light.data());
+  return sum;
 }
 
 Rgb LitPatch::atReceiver(std::uint32_t receiver, const Vec3& toViewer) const {

@@ -52,7 +52,7 @@ class LitPatch {
   std::shared_ptr<const RttPyramid> pyramid_;
   bool viewDependent_, filter_;
   std::vector<float> light_;              ///< [receiver][rttStride]
-  std::vector<PatchGradient> gradients_;  ///< of triangles, if they are needed
+  std::vector<PatchGradient> gradients_;  ///< of triangles, if there is no id map
 };
 
 }  // namespace lambent::shade

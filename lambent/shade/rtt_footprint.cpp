@@ -8,6 +8,9 @@
 // of N box-shaped probes has variance w²/12 + s²(N+1)/(12(N−1)), with s from the first to the last;
 // that of the footprint is a²/12. They are equal for s² = (a² − w²)(N−1)/(N+1): so nothing jumps
 // where N changes.
+//
+// Where a position is larger than the footprint, one looks at it closely: below half a position reads
+// lie between positions, or each would be seen as a tile.
 
 #include "lambent/shade/rtt_footprint.h"
 
@@ -42,7 +45,10 @@ RttProbes probesOf(const Vec2& longer, const Vec2& shorter, const Vec2& position
     along = shorter;
   }
   RttProbes probes;
-  if (!(a > 1.0f)) return probes;
+  if (!(a > 1.0f)) {
+    probes.between = std::min(2.0f - 2.0f * a, 1.0f);
+    return probes;
+  }
   const float width = std::max(std::max(b, 1.0f), a / float(kMostProbes));
   const float beyond = a * a - width * width;
   if (beyond > 0.04f * width * width) {

@@ -31,7 +31,9 @@ inline constexpr float kLeastCosine = 1.0f / 64.0f;
 
 /// The places of the patch where a sub-sample reads, and the level that it reads there.
 struct RttProbes {
-  float level = 0.0f;        ///< 0: the texture itself, position for position
+  float level = 0.0f;  ///< 0: the texture itself, position for position
+  /// Level 0 between its positions: 1 bilinear, 0 the nearest, else between the two.
+  float between = 0.0f;
   int count = 1;             ///< evenly spread about the sub-sample's own place …
   Vec2 step = Vec2::Zero();  ///< … this far apart: q, periods of the patch
 };

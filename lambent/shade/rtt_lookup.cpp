@@ -58,10 +58,12 @@ struct Response {
         std::min(int(q.y() * float(level.height)), level.height - 1), weight);
   }
 
-  void addBilinear(int k, const Vec2& q, float weight) {
+  /// `between`: as RttProbes has it.
+  void addBilinear(int k, const Vec2& q, float between, float weight) {
     const RttLevel& level = pyramid.levels[k];
     const float x = q.x() * float(level.width) - 0.5f, y = q.y() * float(level.height) - 0.5f;
-    const float left = std::floor(x), low = std::floor(y), wx = x - left, wy = y - low;
+    const float left = std::floor(x), low = std::floor(y);
+    const float wx = sharpened(x - left, between), wy = sharpened(y - low, between);
     const int x1 = (int(left) + 1) % level.width, x0 = (int(left) + level.width) % level.width;
     const int y1 = (int(low) + 1) % level.height, y0 = (int(low) + level.height) % level.height;
     add(k, x0, y0, weight * (1 - wy) * (1 - wx));
@@ -70,12 +72,16 @@ struct Response {
     add(k, x1, y1, weight * wy * wx);
   }
 
-  void addLevel(int k, const Vec2& q, float weight) {
+  void addLevel(int k, const Vec2& q, float between, float weight) {
     if (weight == 0.0f) return;
-    if (k == 0)
+    if (k == 0 && between == 0.0f)
       addNearest(q, weight);
     else
-      addBilinear(k, q, weight);
+      addBilinear(k, q, k == 0 ? between : 1.0f, weight);
+  }
+
+  static float sharpened(float share, float between) {
+    return std::clamp((share - 0.5f) / between + 0.5f, 0.0f, 1.0f);
   }
 };
 
@@ -91,8 +97,8 @@ Rgb respond(const RttPyramid& pyramid, const Vec2& q, const RttProbes& probes,
   for (int i = 0; i < probes.count; ++i) {
     const Vec2 at = q + (float(i) - 0.5f * float(probes.count - 1)) * probes.step;
     const Vec2 wrapped = at - Vec2(at.array().floor());
-    response.addLevel(finer, wrapped, share * (1 - mix));
-    response.addLevel(coarser, wrapped, share * mix);
+    response.addLevel(finer, wrapped, probes.between, share * (1 - mix));
+    response.addLevel(coarser, wrapped, probes.between, share * mix);
   }
   Rgb radiance = Rgb::Zero();
   for (int i = 0; i < pyramid.bands * pyramid.bands; ++i)

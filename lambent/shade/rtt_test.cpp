@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "lambent/shade/dispatch.h"
+#include "lambent/shade/patch_place.h"
 #include "lambent/shade/rtt_footprint.h"
 #include "lambent/shade/rtt_lookup.h"
 #include "lambent/shade/test_patches.h"
@@ -134,6 +135,102 @@ TEST(RttFootprint, NothingIsAveragedBelowOnePosition) {
   EXPECT_EQ(probes.count, 1);
   EXPECT_EQ(probes.level, 0.0f);
   EXPECT_EQ(probesOf(Vec2::Zero(), Vec2::Zero(), Vec2(64, 64)).count, 1);
+}
+
+/// A square of one metre on a map whose left part continues one place of a patch of `period` metres,
+/// turned by 0.3 within the surface, and whose right part another.
+struct TwoPieces {
+  scene::Mesh mesh;
+  transfer::Patch patch;
+  PatchGradient gradient;
+
+  static constexpr int kTexels = 40, kBorder = 20;  // the first column of the second piece
+
+  explicit TwoPieces(float period) {
+    mesh.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
+    mesh.uvs = {Vec2(0, 1), Vec2(1, 1), Vec2(1, 0), Vec2(0, 0)};  // v runs down
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    gradient = {Vec3(std::cos(0.3f), std::sin(0.3f), 0) / period,
+                Vec3(-std::sin(0.3f), std::cos(0.3f), 0) / period};
+    transfer::IdMap map{kTexels, kTexels, {}};
+    for (int y = 0; y < kTexels; ++y)
+      for (int x = 0; x < kTexels; ++x) {
+        const Vec2 q = of(Vec2(float(x) + 0.5f, float(y) + 0.5f) / float(kTexels), x >= kBorder);
+        for (int c = 0; c < 2; ++c)
+          map.ids.push_back(std::uint16_t(std::lround((q[c] - std::floor(q[c])) * 65536) & 0xffff));
+      }
+    patch.place = map;
+  }
+  Vec2 of(const Vec2& uv, bool second) const {
+    const Vec3 at(uv.x(), 1 - uv.y(), 0);
+    return Vec2(gradient.x.dot(at), gradient.y.dot(at)) +
+           (second ? Vec2(0.37f, 0.61f) : Vec2(0, 0));
+  }
+  PatchPlaces at(const Vec2& uv) const {
+    return patchPlaces(patch, uv, scene::uvSteps(mesh, uv.x() > 1 - uv.y() ? 0 : 1), gradient);
+  }
+};
+
+double wrappedApart(const Vec2& a, const Vec2& b) {
+  const Vec2 d = a - b;
+  return (d - Vec2(d.array().round())).cwiseAbs().maxCoeff();
+}
+
+// The nearest texel's place would be off by half a texel, .1 of this patch's period.
+TEST(PatchPlaces, AreExactWithinAPieceHoweverClosely) {
+  const TwoPieces pieces(0.125f);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 uv((0.7f + 18.5f * float(i) / 2000) / TwoPieces::kTexels,
+                  0.31f + 0.0001f * float(i));
+    const PatchPlaces places = pieces.at(uv);
+    ASSERT_EQ(places.count, 1) << uv.transpose();
+    EXPECT_NEAR(places.share[0], 1.0f, 1e-5f);
+    EXPECT_LT(wrappedApart(places.q[0], pieces.of(uv, false)), 4e-5);
+  }
+}
+
+TEST(PatchPlaces, FadeIntoEachOtherOverOneTexelAlongAStraightLine) {
+  const TwoPieces pieces(0.125f);
+  for (int row = 1; row < 300; ++row)
+    for (int i = 0; i <= 50; ++i) {
+      const float across = float(i) / 50;  // from the last centre of the first piece
+      const Vec2 uv((TwoPieces::kBorder - 0.5f + across) / TwoPieces::kTexels,
+                    0.03f + float(row) / 320);
+      const PatchPlaces places = pieces.at(uv);
+      double second = 0;
+      for (int k = 0; k < places.count; ++k) {
+        const bool is = wrappedApart(places.q[k], pieces.of(uv, true)) < 1e-4;
+        ASSERT_TRUE(is || wrappedApart(places.q[k], pieces.of(uv, false)) < 1e-4);
+        second += is ? places.share[k] : 0;
+      }
+      ASSERT_NEAR(second, across, 1e-4) << "the staircase of the texels' rows would show";
+    }
+}
+
+TEST(PatchPlaces, TakeWhatHasNoSlopeAndWhatIsNoNumber) {
+  const TwoPieces pieces(0.125f);
+  for (const float u : {0.0f, 0.5f, 1.0f, -3.0f, std::nanf("")}) {
+    double share = 0;
+    const PatchPlaces places =
+        patchPlaces(pieces.patch, Vec2(u, 0.5f), scene::UvSteps{}, PatchGradient{});
+    for (int k = 0; k < places.count; ++k) share += places.share[k];
+    EXPECT_NEAR(share, 1.0, 1e-5) << u;
+  }
+  scene::Mesh flat = pieces.mesh;
+  flat.uvs.assign(4, Vec2(0.5f, 0.5f));
+  EXPECT_EQ(scene::uvSteps(flat, 0).u, Vec3(0, 0, 0));
+}
+
+// A position that covers many pixels is no tile: seen closely, what lies between two changes evenly.
+TEST(RttFootprint, ReadsLieBetweenPositionsThatAreSeenClosely) {
+  const auto between = [](double a) {
+    return probesOf(Vec2(float(a / 64), 0), Vec2(0, float(a / 128)), Vec2(64, 64)).between;
+  };
+  EXPECT_EQ(between(0.01), 1.0f);
+  EXPECT_EQ(between(0.5), 1.0f);
+  EXPECT_NEAR(between(0.75), 0.5f, 1e-5f);
+  EXPECT_NEAR(between(0.9999), 0.0f, 1e-3f);
+  EXPECT_EQ(between(1.5), 0.0f);
 }
 
 TEST(RttFootprint, AxesLieOnTheSurfaceTowardsTheViewer) {

@@ -15,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include "lambent/scene/texel_map.h"
+#include "lambent/scene/uv_steps.h"
 #include "lambent/synthesis/point_tree.h"
 #include "lambent/work/parallel_for.h"
 #include "lambent/work/runner.h"
@@ -126,21 +127,9 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
   transfer::IdMap ids;
   ids.width = ids.height = options.size;
   ids.ids.resize(2 * map.size());
-  const auto place = [&](std::uint32_t texel, Search& search) {
-    const scene::Triangle& corners = atlas.mesh.triangles[map.triangle[texel]];
-    const Vec2 b = map.barycentric[texel];
-    const float weights[3] = {1.0f - b.x() - b.y(), b.x(), b.y()};
-    Vec3 at = Vec3::Zero(), normal = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-      at += weights[k] * atlas.mesh.positions[corners[k]];
-      normal += weights[k] * atlas.mesh.normals[corners[k]];
-    }
-    if (normal.squaredNorm() > 0.0f)
-      normal.normalize();
-    else
-      normal = atlas.mesh.normals[corners[0]];
-    const std::uint32_t v =
-        shoot(tree, mesh, at, normal, static_cast<std::size_t>(options.neighbours), search);
+  std::vector<std::uint32_t> mesoVertex(map.size());  // of covered texels
+  // The patch as it lies at a meso-vertex, continued to a place.
+  const auto write = [&](std::size_t texel, std::uint32_t v, const Vec3& at) {
     const Vec3 offset = at - mesh.positions[v];
     const Vec3& tangent = mesh.tangents[v];
     const Vec3 across = mesh.normals[v].cross(tangent);
@@ -148,6 +137,25 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
         codeOf(double(coordinates[v].x()) + double(offset.dot(tangent)) / options.patchSize.x());
     ids.ids[2 * texel + 1] =
         codeOf(double(coordinates[v].y()) + double(offset.dot(across)) / options.patchSize.y());
+  };
+  const auto mix = [&](std::uint32_t texel, const std::vector<Vec3>& of) -> Vec3 {
+    const scene::Triangle& corners = atlas.mesh.triangles[map.triangle[texel]];
+    const Vec2 b = map.barycentric[texel];
+    return (1.0f - b.x() - b.y()) * of[corners[0]] + b.x() * of[corners[1]] +
+           b.y() * of[corners[2]];
+  };
+  const auto place = [&](std::uint32_t texel, Search& search) {
+    const scene::Triangle& corners = atlas.mesh.triangles[map.triangle[texel]];
+    const Vec3 at = mix(texel, atlas.mesh.positions);
+    Vec3 normal = mix(texel, atlas.mesh.normals);
+    if (normal.squaredNorm() > 0.0f)
+      normal.normalize();
+    else
+      normal = atlas.mesh.normals[corners[0]];
+    const std::uint32_t v =
+        shoot(tree, mesh, at, normal, static_cast<std::size_t>(options.neighbours), search);
+    mesoVertex[texel] = v;
+    write(texel, v, at);
   };
   const work::Runner runner(progress, options.threads);
   const Status placed = runner.run({"id map", "texels"}, work::Chunks(covered.size(), 1024),
@@ -162,9 +170,16 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
   const std::vector<std::uint32_t> nearest = scene::nearestFull(options.size, options.size, full);
   work::parallelRanges(map.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t texel = begin; texel < end; ++texel) {
-      if (full[texel]) continue;  // others read these: they are not written here
-      ids.ids[2 * texel] = ids.ids[2 * std::size_t(nearest[texel])];
-      ids.ids[2 * texel + 1] = ids.ids[2 * std::size_t(nearest[texel]) + 1];
+      if (full[texel]) continue;
+      const std::uint32_t from = nearest[texel];
+      const scene::UvSteps steps = scene::uvSteps(atlas.mesh, map.triangle[from]);
+      const auto texels = [&](std::size_t a, std::size_t b) {
+        return (float(a) - float(b)) / float(options.size);
+      };
+      const std::size_t size = std::size_t(options.size);
+      write(texel, mesoVertex[from],
+            mix(from, atlas.mesh.positions) + texels(texel % size, from % size) * steps.u +
+                texels(texel / size, from / size) * steps.v);
     }
   });
   return ids;

@@ -19,7 +19,7 @@ struct IdMapOptions {
 };
 
 /// Scan conversion of the atlas, normal shooting to the meso-mesh, and dilation of charts into all
-/// texels around them (each takes the nearest chart texel's id). A texel's id is that of the
+/// texels around them (each continues the patch of the nearest chart texel). A texel's id is that of the
 /// meso-vertex it finds, moved on by the texel's own offset from that vertex in the vertex's
 /// tangent plane: the map is as smooth as the patch, not as coarse as the meso-mesh.
 Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,

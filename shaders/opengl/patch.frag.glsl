@@ -12,7 +12,7 @@ struct Vertex {
 };
 struct Triangle {
   vec4 normal;                // by its winding, not unit
-  vec4 gradientX, gradientY;  // of q along the surface
+  vec4 alongX, alongY;        // the gradient of q; with an id map what a step of 1 in u, or v, is
 };
 
 layout(std430, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
@@ -65,16 +65,28 @@ vec3 litRadiance() {
   chooseViews(viewDependent ? toViewer : vec3(0.0, 0.0, 1.0));
 
   vec2 uv = vec2(normalU.w, tangentV.w);
-  vec2 q = hasIdMap ? mappedPlace(uv) : tiledPlace(tiles, uv);
 #if LAMBENT_FILTER
-  vec3 x = triangle.gradientX.xyz, y = triangle.gradientY.xyz;
+  float width = pixelWidth.x * distance + pixelWidth.y;
+  vec3 x = triangle.alongX.xyz, y = triangle.alongY.xyz;
+  Places places;
   if (hasIdMap) {
+    vec3 u = x, v = y;
     x = frame[0] * periodsPerMetre.x;
     y = frame[1] * periodsPerMetre.y;
+    vec2 texels = vec2(idMapSize());
+    places = mappedPlaces(uv, vec2(dot(x, u), dot(y, u)) / texels.x,
+                          vec2(dot(x, v), dot(y, v)) / texels.y);
+  } else {
+    places.count = 1;
+    places.q[0] = tiledPlace(tiles, uv);
+    places.share[0] = 1.0;
   }
-  return averaged(q, frame, toViewer, pixelWidth.x * distance + pixelWidth.y, x, y);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < places.count; ++i)
+    sum += places.share[i] * averaged(places.q[i], frame, toViewer, width, x, y);
+  return sum;
 #else
-  return nearest(q);
+  return nearest(hasIdMap ? mappedPlace(uv) : tiledPlace(tiles, uv));
 #endif
 }
 

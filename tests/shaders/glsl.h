@@ -222,6 +222,9 @@ inline int clamp(int x, int low, int high) {
   inline V exp(const V& a) {                                                     \
     return each<V>([&](int i) { return std::exp(a[i]); });                       \
   }                                                                              \
+  inline V abs(const V& a) {                                                     \
+    return each<V>([&](int i) { return std::abs(a[i]); });                       \
+  }                                                                              \
   inline V fract(const V& a) {                                                   \
     return a - floor(a);                                                         \
   }                                                                              \

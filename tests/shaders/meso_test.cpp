@@ -210,5 +210,41 @@ TEST(PatchPlace, IsTheLibrarys) {
   }
 }
 
+// Pieces of a patch that jump, over texels between which places go on.
+TEST(PatchPlaces, AreTheLibrarys) {
+  math::Random random(4, 0);
+  const Vec2 alongX(0.013f, -0.004f), alongY(0.006f, 0.011f);
+  transfer::IdMap map{19, 23, {}};
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      const Vec2 q =
+          float(x) * alongX + float(y) * alongY + Vec2::Constant(x + y > 20 ? 0.4f : 0.9f);
+      for (int c = 0; c < 2; ++c)
+        map.ids.push_back(std::uint16_t(int((q[c] - std::floor(q[c])) * 65536.0f) & 0xffff));
+    }
+  transfer::Patch mapped;
+  mapped.place = map;
+  floats::idMap = &map;
+  // Steps along two axes of the world, and the gradient that gives what the map has.
+  const scene::UvSteps steps{Vec3(2, 0, 0), Vec3(0, 3, 0)};
+  const shade::PatchGradient gradient{
+      Vec3(alongX.x() * float(map.width) / 2, alongY.x() * float(map.height) / 3, 0),
+      Vec3(alongX.y() * float(map.width) / 2, alongY.y() * float(map.height) / 3, 0)};
+  std::array<int, 5> counts{};
+  for (int i = 0; i < kMany; ++i) {
+    const Vec2 uv(between(random, -0.1f, 1.1f), between(random, -0.1f, 1.1f));
+    const shade::PatchPlaces expected = shade::patchPlaces(mapped, uv, steps, gradient);
+    const floats::Places found = floats::mappedPlaces(from(uv), from(alongX), from(alongY));
+    ASSERT_EQ(found.count, expected.count);
+    ++counts[std::size_t(expected.count)];
+    for (int k = 0; k < found.count; ++k) {
+      ASSERT_LT(apart(found.q[k], expected.q[std::size_t(k)]), 1e-5f);
+      ASSERT_NEAR(found.share[k], expected.share[std::size_t(k)], 1e-5f);
+    }
+  }
+  EXPECT_GT(counts[1], kMany / 2);
+  EXPECT_GT(counts[2], kMany / 50);
+}
+
 }  // namespace
 }  // namespace lambent::glsl

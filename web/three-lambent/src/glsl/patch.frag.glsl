@@ -34,6 +34,14 @@ void main() {
 #include <clipping_planes_fragment>
 #include <logdepthbuf_fragment>
   ShadingPoint point = shadingPoint();
+#if LAMBENT_FILTER && LAMBENT_ID_MAP
+  // What a step of 1 in u, or v, is along the triangle: both are linear over it.
+  vec3 px = dFdx(point.position), py = dFdy(point.position);
+  vec2 uvx = dFdx(point.uv), uvy = dFdy(point.uv);
+  float area = uvx.x * uvy.y - uvy.x * uvx.y;
+  vec3 alongU = area != 0.0 ? (uvy.y * px - uvx.y * py) / area : vec3(0.0);
+  vec3 alongV = area != 0.0 ? (uvx.x * py - uvy.x * px) / area : vec3(0.0);
+#endif
 #if LAMBENT_FILTER && !LAMBENT_ID_MAP
   // The gradient of q along the triangle: q and the position are linear over it, so differences
   // between neighbouring pixels give it exactly. Of the two metres of a pixel's parallelogram, the
@@ -54,19 +62,25 @@ void main() {
     mat3 frame = worldFromPatch(point.normal, tangent_);
     vec3 toViewer = point.toViewer * frame;
     chooseViews(viewDependent ? toViewer : vec3(0.0, 0.0, 1.0));
-#if LAMBENT_ID_MAP
-    vec2 q = mappedPlace(point.uv);
-#else
-    vec2 q = tiledPlace(tiles, point.uv);
-#endif
 #if LAMBENT_FILTER
+    float width = pixelWidth.x * point.distance + pixelWidth.y;
 #if LAMBENT_ID_MAP
     vec3 gradientX = frame[0] * periodsPerMetre.x, gradientY = frame[1] * periodsPerMetre.y;
-#endif
-    float width = pixelWidth.x * point.distance + pixelWidth.y;
-    gl_FragColor.rgb = averaged(q, frame, toViewer, width, gradientX, gradientY);
+    vec2 texels = vec2(idMapSize());
+    Places places =
+        mappedPlaces(point.uv, vec2(dot(gradientX, alongU), dot(gradientY, alongU)) / texels.x,
+                     vec2(dot(gradientX, alongV), dot(gradientY, alongV)) / texels.y);
+    for (int i = 0; i < places.count; ++i)
+      gl_FragColor.rgb += places.share[i] * averaged(places.q[i], frame, toViewer, width, gradientX,
+                                                     gradientY);
 #else
-    gl_FragColor.rgb = nearest(q);
+    gl_FragColor.rgb =
+        averaged(tiledPlace(tiles, point.uv), frame, toViewer, width, gradientX, gradientY);
+#endif
+#elif LAMBENT_ID_MAP
+    gl_FragColor.rgb = nearest(mappedPlace(point.uv));
+#else
+    gl_FragColor.rgb = nearest(tiledPlace(tiles, point.uv));
 #endif
   }
 #if LAMBENT_AIR
