@@ -26,6 +26,16 @@ const shown = (page) =>
   page.evaluate(() => window.lambent.viewer.current.loaded?.name ?? null);
 const errors = (page) => page.locator(".message.error p").allTextContents();
 const notes = (page) => page.locator(".message.note p").allTextContents();
+/** Waits until a note says so (words, or a pattern), and tells what was said if none does. */
+async function says(page, what) {
+  const heard = new Set();
+  const said = (note) => (typeof what === "string" ? note.includes(what) : what.test(note));
+  for (const end = Date.now() + 10_000; Date.now() < end; await page.waitForTimeout(50)) {
+    for (const note of await notes(page)) heard.add(note);
+    if ([...heard].some(said)) return;
+  }
+  assert.fail(`no note says ${what}: ${[...heard].join(" | ") || "there was none"}`);
+}
 const change = (page, part) =>
   page.evaluate((all) => window.lambent.viewer.change((v) => Object.assign(v, all)), part);
 /** The link that the page's own button makes. */
@@ -91,13 +101,13 @@ describe("a link", () => {
     await page.waitForFunction(() => window.lambent.viewer.current.loaded.name === "mine.glb");
     await change(page, { exposure: 0.7 });
     const hash = await copiedHash(page);
-    assert.match((await notes(page)).join(), /mine\.glb and mine\.exr.*by hand/);
+    await says(page, /mine\.glb and mine\.exr.*by hand/);
     assert.match(hash, /file=mine\.glb.*light=mine\.exr/);
     const saved = await view(page);
     await visit.opened.context.close();
     page = await open(hash);
     assert.equal(await shown(page), "matt.glb");
-    assert.match((await notes(page)).join(), /shows mine\.glb and mine\.exr.*open the files here/);
+    await says(page, /shows mine\.glb and mine\.exr.*open the files here/);
     await drop(page, { name: "mine.glb", bytes: baked });
     await page.waitForFunction(() => window.lambent.viewer.current.loaded.name === "mine.glb");
     assert.notEqual((await view(page)).exposure, 0.7, "the light is missing yet");
@@ -146,7 +156,7 @@ describe("the page", () => {
     await page.reload();
     await page.evaluate(() => window.lambent.ready);
     assert.deepEqual([await shown(page), await view(page)], ["Woven knot", left]);
-    assert.match((await notes(page)).join(), /as it was left/);
+    await says(page, /as it was left/);
     await page.locator(".message").getByRole("button", { name: "Start afresh" }).click();
     await page.waitForFunction(() => window.lambent.viewer.current.loaded.name === "matt.glb");
     assert.deepEqual(await view(page), first);
@@ -163,7 +173,7 @@ describe("the page", () => {
     await page.reload();
     await page.evaluate(() => window.lambent.ready);
     assert.deepEqual([await shown(page), await view(page)], ["matt.glb", first]);
-    assert.match((await notes(page)).join(), /before is no longer there/);
+    await says(page, /before is no longer there/);
     assert.deepEqual(visit.opened.complaints, []);
   });
 
@@ -208,7 +218,7 @@ describe("the page", () => {
     await drop(page, { name: "my scene.glb", bytes: mattScene });
     await page.waitForFunction(() => window.lambent.viewer.current.loaded.name === "my scene.glb");
     const line = "lambent bake 'my scene.glb' -o 'my scene-baked.glb'";
-    assert.ok((await notes(page)).join().includes(line));
+    await says(page, line);
     assert.equal(await page.locator(".bake code").textContent(), line);
     assert.ok(await page.getByLabel("Shadows", { exact: true }).isDisabled());
     const shot = async () => decodePng(await picture(page));
@@ -240,7 +250,7 @@ describe("the page", () => {
     ]) {
       await drop(page, { name, bytes: withJson(mattScene, part) });
       await page.waitForFunction((to) => window.lambent.viewer.current.loaded.name === to, name);
-      assert.match((await notes(page)).at(-1), /stripped by an optimiser/, name);
+      await says(page, new RegExp(`${name}.*stripped by an optimiser`));
     }
     await page.evaluate(() => window.lambent.viewer.openAsset(0));
     await settled(page);
@@ -275,7 +285,7 @@ describe("the page", () => {
     const page = await open("", { reducedMotion: "reduce" });
     await page.keyboard.press("a");
     assert.equal(await page.evaluate(() => window.lambent.viewer.playing), false);
-    assert.match((await notes(page)).join(), /reduced motion/);
+    await says(page, /reduced motion/);
     assert.ok(await page.getByLabel("Let it go round").isDisabled());
     const moving = await page.evaluate(() => {
       const all = [document, document.querySelector("lambent-viewer").shadowRoot].flatMap((root) =>
