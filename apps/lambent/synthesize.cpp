@@ -68,19 +68,43 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const SynthesizeRequest& argumen
   return chosen;
 }
 
+/// What the patch repeats, in words.
+std::string repeats(const synthesis::PatchSymmetry& symmetry) {
+  if (!symmetry.regular()) return "the patch does not repeat itself within its period";
+  std::string text = symmetry.cells() > 1
+                         ? fmt::format("the patch repeats itself {} times within its period",
+                                       symmetry.cells())
+                         : std::string("the patch nearly repeats itself within its period");
+  if (symmetry.turns > 1)
+    text += fmt::format(" and bears {} turns", symmetry.turns == 4 ? "quarter" : "half");
+  return text;
+}
+
 std::string reportText(const bi_scale::SpreadReport& r) {
   std::string text = fmt::format("  {}: {:.1f} patches, each {:.4g} wide, at {} vertices\n",
                                  r.name.empty() ? "mesh " + std::to_string(r.mesh) : r.name,
                                  r.patches, double(r.patchWidth), formatCount(r.vertices));
-  if (r.mesoVertices > 0) {
-    text += fmt::format(
-        "    {} meso-vertices, {} singularities of the tangent field, randomness {:.2f}\n",
-        formatCount(r.mesoVertices), r.singularities, r.randomness);
+  const auto atlas = [&] {
     text += fmt::format(
         "    atlas: {} charts{}, stretch {:.3f} (worst chart {:.3f}), {:.0f}% of "
         "the map in use\n",
         r.charts, r.ownUvs ? " (the mesh's own UVs)" : "", r.stretch, r.worstStretch,
         100.0 * r.usedArea);
+  };
+  if (r.layout == bi_scale::Layout::Lattice) {
+    text += fmt::format(
+        "    laid as a lattice, for {}\n"
+        "    {} singularities; it goes on over {:.6g}% of the edges, {:.1f}% off its size (rms), "
+        "by more than a half over {:.1f}% of the surface\n",
+        repeats(r.symmetry), r.singularities, 100.0 * r.continued, 100.0 * r.sizeError,
+        100.0 * r.squeezed);
+    atlas();
+  } else if (r.mesoVertices > 0) {
+    text += fmt::format("    laid in pieces, for {}\n", repeats(r.symmetry));
+    text += fmt::format(
+        "    {} meso-vertices, {} singularities of the tangent field, randomness {:.2f}\n",
+        formatCount(r.mesoVertices), r.singularities, r.randomness);
+    atlas();
   }
   if (r.matrixError > 0.0)
     text += fmt::format("    encoding the matrices costs {:.2g}% (relative RMS)\n",
@@ -98,6 +122,17 @@ Json asJson(const bi_scale::SpreadReport& r) {
           {"meso_vertices", r.mesoVertices},
           {"singularities", r.singularities},
           {"randomness", r.randomness},
+          {"layout", r.layout == bi_scale::Layout::Lattice ? "lattice" : "pieces"},
+          {"patch_symmetry",
+           {{"cells", r.symmetry.cells()},
+            {"turns", r.symmetry.turns},
+            {"moved", r.symmetry.moved},
+            {"half_turned", r.symmetry.halfTurned},
+            {"quarter_turned", r.symmetry.quarterTurned}}},
+          {"continued", r.continued},
+          {"flipped", r.flipped},
+          {"squeezed", r.squeezed},
+          {"size_error", r.sizeError},
           {"charts", r.charts},
           {"stretch", r.stretch},
           {"worst_stretch", r.worstStretch},
@@ -230,6 +265,14 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       {{"synthesized", bi_scale::Placement::Synthesized}, {"uv", bi_scale::Placement::OwnUvs}},
       "synthesized: texture synthesis over the surface; uv: the mesh's own UVs repeat "
       "the patch")
+      ->option_text("KIND")
+      ->group("Placement");
+  addChoice(*app, "--layout", options.layout,
+            {{"auto", bi_scale::Layout::Automatic},
+             {"lattice", bi_scale::Layout::Lattice},
+             {"pieces", bi_scale::Layout::Pieces}},
+            "lattice: whole cells of the patch, without a seam, for what repeats itself; pieces: "
+            "grown of parts that fit, for what never does; auto: as the patch is")
       ->option_text("KIND")
       ->group("Placement");
   addParsed(*app, "--tiles", arguments->tiles, sizesUpTo(32768),

@@ -41,7 +41,7 @@ Result<WithFindings<Atlas>> makeAtlas(const scene::Mesh& mesh, const AtlasOption
   }
 
   Result<ChartedSurface> charted =
-      chartedSurface(mesh, std::move(surface), options.maximumStretch, progress);
+      chartedSurface(mesh, std::move(surface), options.maximumStretch, progress, options.cutAt);
   if (!charted) return charted.error();
   Result<Atlas> atlas = packedAtlas(mesh, *charted, {}, {options.size, options.gutter}, progress);
   if (!atlas) return atlas.error();

@@ -441,5 +441,22 @@ TEST(Atlas, RefusesWhatMakesNoSense) {
   EXPECT_EQ(cancelled.error().kind, ErrorKind::Cancelled);
 }
 
+TEST(Atlas, NoChartHasAVertexInsideThatIsToBeCut) {
+  const scene::Mesh sphere = scene::icosphere(1.0f, 4);
+  AtlasOptions options{.size = 512, .ownUvs = false};
+  for (std::uint32_t t = 0; t < sphere.triangles.size(); t += 97) options.cutAt.push_back(3 * t);
+  const Atlas atlas = automatic(sphere, options);
+  for (const std::uint32_t corner : options.cutAt) {
+    const std::uint32_t vertex = sphere.triangles[corner / 3][0];
+    std::set<std::uint32_t> charts;
+    for (std::uint32_t t = 0; t < sphere.triangles.size(); ++t)
+      for (const std::uint32_t v : sphere.triangles[t])
+        if (v == vertex) charts.insert(atlas.chartOfTriangle[t]);
+    EXPECT_GT(charts.size(), 1u);
+  }
+  EXPECT_EQ(countGutters(atlas, options.size).sharedTexels, 0u);
+  EXPECT_LE(atlas.charts, 6u + options.cutAt.size()) << "at most one more for each";
+}
+
 }  // namespace
 }  // namespace lambent::atlas

@@ -12,10 +12,22 @@
 namespace lambent::atlas {
 namespace {
 
+/// A vertex of `cutAt` (by vertex of the surface) that lies inside of the chart.
+std::optional<std::uint32_t> toBeCut(const ChartPatch& patch, const std::vector<bool>& cutAt) {
+  if (cutAt.empty()) return std::nullopt;
+  std::vector<bool> atBorder(patch.positions.size(), false);
+  for (const auto& loop : patch.loops)
+    for (const std::uint32_t v : loop) atBorder[v] = true;
+  for (std::uint32_t v = 0; v < patch.chartVertices(); ++v)
+    if (!atBorder[v] && cutAt[patch.weldedVertex[v]]) return patch.weldedVertex[v];
+  return std::nullopt;
+}
+
 /// Lays charts out, and cuts those that cannot be, until all lie flat. That ends: a piece has fewer
 /// triangles than its chart, and a single triangle always lies flat.
 Result<std::vector<LaidOutChart>> layOut(const WeldedSurface& surface, std::vector<Chart> work,
-                                         float maximumStretch, const Progress& progress) {
+                                         float maximumStretch, const std::vector<bool>& cutAt,
+                                         const Progress& progress) {
   std::vector<LaidOutChart> done;
   std::vector<std::uint32_t> chartOf(surface.triangles.size(), kNoTriangle);
   std::vector<std::uint32_t> numberOf(surface.triangles.size());
@@ -32,6 +44,10 @@ Result<std::vector<LaidOutChart>> layOut(const WeldedSurface& surface, std::vect
     work::parallelFor(work.size(), [&](std::size_t c) {
       const Chart& chart = work[c];
       ChartPatch patch = chartPatch(surface, chart, chartOf, numberOf);
+      if (const auto vertex = chart.size() > 1 ? toBeCut(patch, cutAt) : std::nullopt) {
+        pieces[c] = cutThrough(surface, chart, chartOf, *vertex);
+        return;
+      }
       if (patch.disc)
         if (std::optional<std::vector<Vec2d>> layout = flatten(patch)) {
           const double stretch = stretchOf(patch, *layout).stretch();
@@ -126,14 +142,18 @@ class AtlasMesh {
 }  // namespace
 
 Result<ChartedSurface> chartedSurface(const scene::Mesh& mesh, WeldedSurface surface,
-                                      float maximumStretch, const Progress& progress) {
+                                      float maximumStretch, const Progress& progress,
+                                      std::span<const std::uint32_t> cutAt) {
   ChartedSurface charted;
   charted.surface = std::move(surface);
   if (!(charted.surface.area > 0.0))
     return report::badInput((mesh.name.empty() ? "the mesh" : "mesh \"" + mesh.name + "\"") +
                             " has no triangle of any area, and so no surface to lay out");
+  std::vector<bool> cut(cutAt.empty() ? 0 : charted.surface.positions.size(), false);
+  for (const std::uint32_t corner : cutAt)
+    cut[charted.surface.triangles[corner / 3][corner % 3]] = true;
   Result<std::vector<LaidOutChart>> charts =
-      layOut(charted.surface, cutIntoCharts(charted.surface), maximumStretch, progress);
+      layOut(charted.surface, cutIntoCharts(charted.surface), maximumStretch, cut, progress);
   if (!charts) return charts.error();
   charted.charts = std::move(*charts);
   charted.chartOfTriangle.assign(mesh.triangles.size(), kNoTriangle);

@@ -30,10 +30,11 @@ struct ChartedSurface {
   std::vector<std::uint32_t> chartOfTriangle;
 };
 
-/// `surface`: that of the mesh; where it does not hang together no chart does. `maximumStretch`: as
-/// AtlasOptions. BadInput if no triangle has area; Cancelled.
+/// `surface`: that of the mesh; where it does not hang together no chart does. `maximumStretch`
+/// and `cutAt` as AtlasOptions. BadInput if no triangle has area; Cancelled.
 Result<ChartedSurface> chartedSurface(const scene::Mesh& mesh, WeldedSurface surface,
-                                      float maximumStretch, const Progress& progress);
+                                      float maximumStretch, const Progress& progress,
+                                      std::span<const std::uint32_t> cutAt = {});
 
 /// The same with charts of different densities, [chart], > 0: texels are that much denser on a
 /// chart, in proportion to others. None: all are as dense. `mesh` is that of the charts. BadUsage

@@ -13,7 +13,10 @@
 #include <limits>
 #include <map>
 #include <queue>
+#include <set>
 #include <tuple>
+
+#include <Eigen/Geometry>
 
 #include "lambent/atlas/smooth_borders.h"
 #include "lambent/work/parallel_for.h"
@@ -329,6 +332,59 @@ std::vector<Chart> cutInTwo(const WeldedSurface& surface, const Chart& chart,
   thread_local Scratch scratch(0);
   if (scratch.cost.size() < surface.triangles.size()) scratch = Scratch(surface.triangles.size());
   return bisect(surface, chart, chartOf, scratch, 3);
+}
+
+std::vector<Chart> cutThrough(const WeldedSurface& surface, const Chart& chart,
+                              const std::vector<std::uint32_t>& chartOf, std::uint32_t vertex) {
+  constexpr int kDirections = 12;
+  const std::uint32_t id = chartOf[chart.front()];
+  const Vec3d at = surface.positions[vertex];
+  Vec3d normal = Vec3d::Zero();
+  for (const std::uint32_t t : chart)
+    for (const std::uint32_t v : surface.triangles[t])
+      if (v == vertex) normal += surface.areas[t] * surface.normals[t];
+  const Vec3d x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
+  const auto across = [&](int k) -> Vec3d {
+    const double angle = kPi * k / kDirections;
+    return std::cos(angle) * x + std::sin(angle) * y;
+  };
+  const auto left = [&](const Vec3d& direction, std::uint32_t t) {
+    return (surface.centroids[t] - at).dot(direction) >= 0.0;
+  };
+  double shortest = std::numeric_limits<double>::infinity();
+  Vec3d chosen = x;
+  for (int k = 0; k < kDirections; ++k) {
+    const Vec3d direction = across(k);
+    double length = 0.0;
+    for (const std::uint32_t t : chart)
+      for (int side = 0; side < 3; ++side) {
+        const std::uint32_t n = surface.neighbours[t][side];
+        if (n != kNoTriangle && n > t && chartOf[n] == id && left(direction, t) != left(direction, n))
+          length += edgeLength(surface, t, side);
+      }
+    if (length < shortest) shortest = length, chosen = direction;
+  }
+  std::vector<Chart> pieces;
+  std::set<std::uint32_t> rest(chart.begin(), chart.end());
+  while (!rest.empty()) {
+    Chart& piece = pieces.emplace_back(1, *rest.begin());
+    rest.erase(rest.begin());
+    for (std::size_t i = 0; i < piece.size(); ++i)
+      for (const std::uint32_t n : surface.neighbours[piece[i]])
+        if (n != kNoTriangle && rest.contains(n) && left(chosen, n) == left(chosen, piece[i]))
+          rest.erase(n), piece.push_back(n);
+    std::sort(piece.begin(), piece.end());
+  }
+  const auto parted = [&] {
+    std::size_t with = 0;
+    for (const Chart& piece : pieces)
+      with += std::any_of(piece.begin(), piece.end(), [&](std::uint32_t t) {
+        const auto& corners = surface.triangles[t];
+        return std::find(corners.begin(), corners.end(), vertex) != corners.end();
+      });
+    return with > 1;
+  };
+  return parted() ? pieces : cutInTwo(surface, chart, chartOf);
 }
 
 }  // namespace lambent::atlas

@@ -21,4 +21,10 @@ std::vector<Chart> cutIntoCharts(const WeldedSurface& surface);
 std::vector<Chart> cutInTwo(const WeldedSurface& surface, const Chart& chart,
                             const std::vector<std::uint32_t>& chartOf);
 
+/// The chart cut straight through a vertex of the surface that lies inside of it, where that takes
+/// the shortest cut: pieces that hang together, of which none has the vertex inside. In two as
+/// above where that fails.
+std::vector<Chart> cutThrough(const WeldedSurface& surface, const Chart& chart,
+                              const std::vector<std::uint32_t>& chartOf, std::uint32_t vertex);
+
 }  // namespace lambent::atlas

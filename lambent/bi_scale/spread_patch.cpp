@@ -13,9 +13,12 @@
 
 #include "lambent/bi_scale/uv_frames.h"
 #include "lambent/synthesis/appearance.h"
+#include "lambent/synthesis/cross_field.h"
+#include "lambent/synthesis/lattice_map.h"
 #include "lambent/synthesis/meso_mesh.h"
 #include "lambent/synthesis/place_ids.h"
 #include "lambent/synthesis/synthesize.h"
+#include "lambent/synthesis/tangent_field.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/transfer/encode.h"
 
@@ -139,6 +142,7 @@ struct Spreader {
   Findings& findings;
   Spread& out;
   std::optional<synthesis::Appearance> appearance;  ///< made once for all meshes
+  std::optional<synthesis::PatchSymmetry> symmetry;
 
   Status byOwnUvs(std::uint32_t index, SpreadReport& report, Placed& placed,
                   std::vector<Vec3>& tangents) {
@@ -171,23 +175,95 @@ struct Spreader {
 
   Status bySynthesis(std::uint32_t index, SpreadReport& report, Placed& placed,
                      std::vector<Vec3>& tangents) {
-    announce(progress, "charts");
-    auto laidOut = atlas::makeAtlas(scene.meshes[index], options.atlas, progress);
-    if (!laidOut) return named(laidOut.error(), scene.meshes[index], index);
-    findings.insert(findings.end(), laidOut->findings.begin(), laidOut->findings.end());
-    atlas::Atlas* const atlas = &laidOut->value;
-    const int material = scene.meshes[index].material;
-    scene.meshes[index] = atlas->mesh;
-    scene.meshes[index].material = material;
-    scene.meshes[index].source.uvSet = -1;
-    const scene::Mesh& mesh = scene.meshes[index];
+    if (!symmetry)
+      symmetry = staged(progress, "symmetry of the patch",
+                        [&] { return synthesis::symmetryOf(transfer::decode(rtt)); });
+    report.symmetry = *symmetry;
+    const bool lattice = options.layout == Layout::Automatic ? symmetry->regular()
+                                                             : options.layout == Layout::Lattice;
+    report.layout = lattice ? Layout::Lattice : Layout::Pieces;
+    return lattice ? byLattice(index, report, placed, tangents)
+                   : byPieces(index, report, placed, tangents);
+  }
 
+  /// Lays the surface out; the mesh becomes the atlas's.
+  Result<atlas::Atlas> atlasOf(std::uint32_t index, const atlas::AtlasOptions& how,
+                               SpreadReport& report) {
+    announce(progress, "charts");
+    scene::Mesh& mesh = scene.meshes[index];
+    auto laidOut = atlas::makeAtlas(mesh, how, progress);
+    if (!laidOut) return named(laidOut.error(), mesh, index);
+    findings.insert(findings.end(), laidOut->findings.begin(), laidOut->findings.end());
+    atlas::Atlas& atlas = laidOut->value;
+    const int material = mesh.material;
+    mesh = atlas.mesh;
+    mesh.material = material;
+    mesh.source.uvSet = -1;
+    report.charts = atlas.charts;
+    report.stretch = atlas.stretch, report.worstStretch = atlas.worstStretch;
+    report.usedArea = atlas.usedArea, report.ownUvs = atlas.ownUvs;
+    return std::move(atlas);
+  }
+
+  Result<synthesis::TangentField> fieldOf(std::uint32_t index, int turns) {
+    const scene::Mesh& mesh = scene.meshes[index];
     auto combed = staged(progress, "tangent field", [&] {
-      return synthesis::tangentField(mesh, {.direction = options.direction});
+      return synthesis::tangentField(mesh, {.direction = options.direction, .turns = turns});
     });
     if (!combed) return named(combed.error(), mesh, index);
     findings.insert(findings.end(), combed->findings.begin(), combed->findings.end());
-    synthesis::TangentField* const field = &combed->value;
+    return std::move(combed->value);
+  }
+
+  Status byLattice(std::uint32_t index, SpreadReport& report, Placed& placed,
+                   std::vector<Vec3>& tangents) {
+    auto combed = fieldOf(index, symmetry->turns);
+    if (!combed) return combed.error();
+    const synthesis::Manifold manifold = synthesis::manifoldOf(scene.meshes[index]);
+    synthesis::CrossField field = synthesis::crossField(scene.meshes[index], manifold,
+                                                        combed->tangents, symmetry->turns);
+    atlas::AtlasOptions how = options.atlas;
+    for (const auto& s : field.singularities) how.cutAt.push_back(manifold.firstCorner[s.vertex]);
+    // Where the patch turns, charts end: own UVs would have it turn in their midst.
+    how.ownUvs = how.ownUvs && how.cutAt.empty();
+    auto atlas = atlasOf(index, how, report);
+    if (!atlas) return atlas.error();
+    synthesis::comb(manifold, atlas->chartOfTriangle, field);
+
+    const scene::Mesh& mesh = scene.meshes[index];
+    const Vec2 patch = placed.patch.scale * rtt.size;
+    announce(progress, "lattice");
+    auto map = synthesis::latticeMap(manifold, field, atlas->chartOfTriangle, *symmetry, patch,
+                                     progress);
+    if (!map) return named(map.error(), mesh, index);
+    auto ids = staged(progress, "id map",
+                      [&] { return synthesis::placeIds(*atlas, *map, options.atlas.size); });
+    if (!ids) return named(ids.error(), mesh, index);
+    placed.patch.place = std::move(*ids);
+    tangents = synthesis::vertexTangents(mesh, *map);
+    report.singularities = std::uint32_t(field.singularities.size());
+    report.continued = map->edges > 0 ? double(map->continued) / double(map->edges) : 1.0;
+    report.flipped = map->flipped, report.squeezed = map->squeezed;
+    report.sizeError = map->stretch;
+    if (map->flipped > 0.01)
+      findings.push_back(
+          {Severity::Warning, "patch-folded",
+           quoted(mesh, index) + ": the patch is folded over " +
+               std::to_string(int(std::ceil(100.0 * map->flipped))) +
+               "% of the surface, whose shapes are too small for whole cells of it: lay a smaller "
+               "patch (--patch-width), or pieces of it (--layout pieces)",
+           1});
+    out.atlases.push_back(std::move(*atlas));
+    return Status::ok();
+  }
+
+  Status byPieces(std::uint32_t index, SpreadReport& report, Placed& placed,
+                  std::vector<Vec3>& tangents) {
+    auto atlas = atlasOf(index, options.atlas, report);
+    if (!atlas) return atlas.error();
+    const scene::Mesh& mesh = scene.meshes[index];
+    auto field = fieldOf(index, 1);
+    if (!field) return field.error();
 
     const Vec2 patch = placed.patch.scale * rtt.size;
     const double positions = report.patches * rtt.width * rtt.height;
@@ -223,9 +299,6 @@ struct Spreader {
     tangents = std::move(field->tangents);
     report.mesoVertices = std::uint32_t(meso->positions.size());
     report.singularities = std::uint32_t(field->singularities.size());
-    report.charts = atlas->charts;
-    report.stretch = atlas->stretch, report.worstStretch = atlas->worstStretch;
-    report.usedArea = atlas->usedArea, report.ownUvs = atlas->ownUvs;
     out.atlases.push_back(std::move(*atlas));
     return Status::ok();
   }
@@ -268,7 +341,7 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
   WithFindings<Spread> result;
   Spread& spread = result.value;
   Findings& findings = result.findings;
-  Spreader spreader{scene, rtt, options, progress, findings, spread, {}};
+  Spreader spreader{scene, rtt, options, progress, findings, spread, {}, {}};
   transport::Placement placement;
   std::vector<Placed> all;
   for (const std::uint32_t m : *chosen) {

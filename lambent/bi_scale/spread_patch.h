@@ -14,7 +14,7 @@
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
 #include "lambent/scene/scene.h"
-#include "lambent/synthesis/tangent_field.h"
+#include "lambent/synthesis/patch_symmetry.h"
 
 namespace lambent::bi_scale {
 
@@ -23,11 +23,19 @@ enum class Placement {
   OwnUvs,       ///< the mesh's UVs repeat the patch: parametric surfaces
 };
 
+/// How a patch is laid by synthesis.
+enum class Layout {
+  Automatic,  ///< a lattice for patches that repeat themselves within their period, else pieces
+  Lattice,    ///< without a seam, as whole cells of the patch: synthesis/lattice_map.h
+  Pieces,     ///< grown of pieces that fit: synthesis/synthesize.h
+};
+
 struct SpreadOptions {
   std::vector<std::uint32_t> meshes;  ///< that carry the patch; empty: all that are no mirrors
   Placement placement = Placement::Synthesized;
   /// Metres of the surface that the patch's width covers; 0: see automaticPatchWidth.
   float patchWidth = 0.0f;
+  Layout layout = Layout::Automatic;
   Vec2 tiles = Vec2(0.0f, 0.0f);   ///< OwnUvs: patches along u and v; 0: from patchWidth
   std::uint32_t mesoVertices = 0;  ///< 0: one for each position of the patch, to 960,000
   std::optional<Vec3> direction;   ///< steers the patch's +x, world space
@@ -54,7 +62,13 @@ struct SpreadReport {
   float patchWidth = 0.0f;  ///< metres
   std::uint32_t vertices = 0, mesoVertices = 0;
   std::uint32_t singularities = 0;
-  float randomness = 0.0f;
+  float randomness = 0.0f;  ///< of pieces
+  /// Lattice or Pieces, if synthesised, and what the choice stood on.
+  Layout layout = Layout::Pieces;
+  synthesis::PatchSymmetry symmetry;
+  /// Of a lattice: the share of edges that it goes on over; the share of the surface where it lies
+  /// face down, and where it is below 2/3 or above 3/2 of its size; the rms of ln(size).
+  double continued = 0.0, flipped = 0.0, squeezed = 0.0, sizeError = 0.0;
   std::uint32_t charts = 0;
   double stretch = 1.0, worstStretch = 1.0, usedArea = 0.0;
   bool ownUvs = false;

@@ -46,6 +46,7 @@ SpreadOptions small() {
   options.transfer.directions = 256;
   options.transfer.bounces = 1;
   options.patchWidth = 0.5f;
+  options.layout = Layout::Pieces;
   return options;
 }
 
@@ -106,6 +107,43 @@ TEST(SpreadPatch, IsTheSameAtAnyThreadCount) {
     const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
     return std::pair(biScale.patch.idMap()->ids,
                      biScale.matrices.find(transfer::Kind::Interreflected)->numbers.byte);
+  };
+  EXPECT_EQ(ids(1), ids(4));
+}
+
+TEST(SpreadPatch, WhatRepeatsItselfIsLaidAsALattice) {
+  SpreadOptions options = small();
+  options.layout = Layout::Automatic;
+  const Spread spread = spreadOrDie(scene::sceneOf(scene::icosphere(1, 3)), options);
+  const SpreadReport& report = spread.reports[0];
+  EXPECT_EQ(report.layout, Layout::Lattice);
+  EXPECT_EQ(report.symmetry.cells(), 2) << "half a period along both axes";
+  EXPECT_EQ(report.symmetry.turns, 2);
+  EXPECT_EQ(report.singularities, 4u);
+  EXPECT_EQ(report.continued, 1.0);
+  EXPECT_EQ(report.flipped, 0.0);
+  const Status sound = asset::checkForWriting(spread.asset);
+  EXPECT_TRUE(sound) << sound.error().message;
+  // Where charts meet the patch lies the same way, or the other way round.
+  const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
+  const std::vector<std::uint32_t>& source = spread.atlases[0].sourceVertex;
+  std::size_t same = 0, turned = 0;
+  for (std::size_t v = 642; v < source.size(); ++v) {
+    const float agreement = biScale.tangents[v].dot(biScale.tangents[source[v]]);
+    same += agreement > 0.9f, turned += agreement < -0.9f;
+  }
+  EXPECT_GT(turned, 0u);
+  EXPECT_GT(double(same + turned), 0.9 * double(source.size() - 642));
+}
+
+TEST(SpreadPatch, ALatticeHasTheSamePlacesAtAnyThreadCount) {
+  SpreadOptions options = small();
+  options.layout = Layout::Lattice;
+  const auto ids = [&](std::size_t threads) {
+    const work::ThreadLimit limit(threads);
+    const Spread spread = spreadOrDie(scene::sceneOf(scene::icosphere(1, 3)), options);
+    const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
+    return std::pair(biScale.patch.idMap()->ids, biScale.tangents);
   };
   EXPECT_EQ(ids(1), ids(4));
 }

@@ -13,6 +13,7 @@
 #include <string>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "lambent/scene/texel_map.h"
 #include "lambent/scene/uv_steps.h"
@@ -93,7 +94,54 @@ std::uint16_t codeOf(double place) {
       static_cast<std::int64_t>(std::llround((place - std::floor(place)) * 65536.0)) & 0xffff);
 }
 
+Error tooSmall(int size) {
+  return report::badInput("the atlas covers no texel of a " + std::to_string(size) + "×" +
+                          std::to_string(size) + " map; ask for a larger one");
+}
+
+std::vector<std::uint8_t> fullTexels(const scene::TexelMap& map) {
+  std::vector<std::uint8_t> full(map.size());
+  for (std::size_t texel = 0; texel < map.size(); ++texel) full[texel] = map.covered(texel);
+  return full;
+}
+
 }  // namespace
+
+Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const LatticeMap& lattice, int size) {
+  if (size < 1 || size > 16384)
+    return report::badUsage("an id map must have 1 to 16384 texels a side");
+  scene::TexelMap map = scene::texelMap(atlas.mesh, size, size);
+  giveEveryChartATexel(atlas, map);
+  const std::vector<std::uint8_t> full = fullTexels(map);
+  const std::vector<std::uint32_t> nearest = scene::nearestFull(size, size, full);
+  if (nearest.empty() || nearest[0] == scene::kNobody) return tooSmall(size);
+  transfer::IdMap ids;
+  ids.width = ids.height = size;
+  ids.ids.resize(2 * map.size());
+  work::parallelRanges(map.size(), 1, [&](std::size_t begin, std::size_t end) {
+    using Vec2d = Eigen::Vector2d;
+    for (std::size_t texel = begin; texel < end; ++texel) {
+      const std::uint32_t from = nearest[texel], t = map.triangle[from];
+      const Vec2d q[3] = {lattice.places[3 * t].cast<double>(),
+                          lattice.places[3 * t + 1].cast<double>(),
+                          lattice.places[3 * t + 2].cast<double>()};
+      const auto& [a, b, c] = atlas.mesh.triangles[t];
+      Vec2d weights = map.barycentric[from].cast<double>();
+      Eigen::Matrix2d sides;
+      sides << (atlas.mesh.uvs[b] - atlas.mesh.uvs[a]).cast<double>(),
+          (atlas.mesh.uvs[c] - atlas.mesh.uvs[a]).cast<double>();
+      if (from != texel && std::abs(sides.determinant()) > 1e-18) {
+        const double step = 1.0 / size;
+        weights += sides.inverse() *
+                   Vec2d((double(texel % size) - double(from % size)) * step,
+                         (double(texel / size) - double(from / size)) * step);
+      }
+      const Vec2d place = q[0] + weights.x() * (q[1] - q[0]) + weights.y() * (q[2] - q[0]);
+      ids.ids[2 * texel] = codeOf(place.x()), ids.ids[2 * texel + 1] = codeOf(place.y());
+    }
+  });
+  return ids;
+}
 
 Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
                                  std::span<const Vec2> coordinates, const IdMapOptions& options,
@@ -114,9 +162,7 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
   scene::TexelMap map = scene::texelMap(atlas.mesh, options.size, options.size);
   giveEveryChartATexel(atlas, map);
   const std::vector<std::uint32_t> covered = coveredByBlocks(map);
-  if (covered.empty())
-    return report::badInput("the atlas covers no texel of a " + std::to_string(options.size) + "×" +
-                            std::to_string(options.size) + " map; ask for a larger one");
+  if (covered.empty()) return tooSmall(options.size);
 
   const Points points{mesh.positions.size(),
                       [&](std::size_t i) -> const Vec3& { return mesh.positions[i]; }};
@@ -165,8 +211,7 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh
                                    });
   if (!placed) return placed.error();
 
-  std::vector<std::uint8_t> full(map.size());
-  for (const std::uint32_t texel : covered) full[texel] = 1;
+  const std::vector<std::uint8_t> full = fullTexels(map);
   const std::vector<std::uint32_t> nearest = scene::nearestFull(options.size, options.size, full);
   work::parallelRanges(map.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t texel = begin; texel < end; ++texel) {

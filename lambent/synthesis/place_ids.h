@@ -6,6 +6,7 @@
 #include "lambent/atlas/atlas.h"
 #include "lambent/report/progress.h"
 #include "lambent/report/result.h"
+#include "lambent/synthesis/lattice_map.h"
 #include "lambent/synthesis/meso_mesh.h"
 #include "lambent/transfer/id_map.h"
 
@@ -25,5 +26,9 @@ struct IdMapOptions {
 Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const MesoMesh& mesh,
                                  std::span<const Vec2> coordinates, const IdMapOptions& options,
                                  const Progress& progress);
+
+/// The same of a patch that was laid as a lattice: `map` is linear over each of the atlas's
+/// triangles, and goes on beyond charts as their nearest triangle has it.
+Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const LatticeMap& map, int size);
 
 }  // namespace lambent::synthesis

@@ -4,9 +4,12 @@
 //   field is one linear solve (§3.3, eq. 10); the index of a triangle (§5).
 // - sharp2019vector (§5.1-5.2): the Laplacian with cotangent weights over tangent planes whose
 //   angles are scaled to 2π, which we use in place of Knöppel's finite elements.
+// - viertel2019approach: diffusion and normalisation in turns, which spread the singularities of a
+//   field of several equivalent directions.
 //
 // As the code spells it: a tangent at vertex i is a complex number u_i, its argument the scaled
-// angle from the first edge of the vertex's fan; e^{iρ} carries it along an edge. The energy is
+// angle from the first edge of the vertex's fan (or, of N equivalent directions, N times that, which
+// is the same for all of them); e^{iρ} carries it along an edge. The energy is
 // Σ w |u_j − e^{iρ} u_i|², and M the diagonal of vertex areas as shares of their component.
 //
 // Where we deviate: weights are held within 1/64 … 64, so that slivers and obtuse triangles leave
@@ -43,11 +46,12 @@ struct TangentPlanes {
   std::vector<double> angle;   ///< per half-edge: scaled, at its tail
   std::vector<double> corner;  ///< per corner: its unscaled angle
   std::vector<double> mass;    ///< a third of the area around, as a share of the component's
+  int turns = 1;               ///< equivalent directions: u is the power that all of them have
 
-  /// The rotation ρ that carries a tangent along half-edge h.
+  /// The rotation ρ that carries a tangent, to the power of `turns`, along half-edge h.
   double transport(const Manifold& m, std::uint32_t h) const {
     const std::uint32_t head = Manifold::next(h);
-    return angle[head] + scale[m.vertexOfCorner[head]] * corner[head] + kPi - angle[h];
+    return turns * (angle[head] + scale[m.vertexOfCorner[head]] * corner[head] + kPi - angle[h]);
   }
 };
 
@@ -146,13 +150,37 @@ Matrix laplacian(const Manifold& m, const TangentPlanes& p, double smooth,
 Field project(const TangentPlanes& p, const Vec3d& direction) {
   Field u(Eigen::Index(p.x.size()));
   for (std::size_t i = 0; i < p.x.size(); ++i) {
-    u[Eigen::Index(i)] = Complex(direction.dot(p.x[i]), direction.dot(p.y[i]));
+    const Complex along(direction.dot(p.x[i]), direction.dot(p.y[i]));
+    // Its length is that of the projection, whatever the power.
+    const double length = std::abs(along);
+    u[Eigen::Index(i)] =
+        length > 0.0 ? std::polar(length, p.turns * std::arg(along)) : Complex(0.0);
   }
   return u;
 }
 
 constexpr const char* kNoMemory =
     "the tangent field's matrix could not be factorised; a mesh with fewer vertices may fit";
+
+/// Singularities driven apart: as lengths of the smoothest field go to zero around singularities,
+/// it does not mind several of them beside each other, which turn a texture as sharply as one large
+/// one. Diffused for a while and brought back to unit length in turns, it does.
+Result<Field> spread(const Manifold& m, const TangentPlanes& p, Field u) {
+  // Times at which a component's longest waves have sunk to about a third, and to nine tenths.
+  for (const double time : {0.1, 0.01}) {
+    const ConnectionSolver solver(laplacian(m, p, time, p.mass));
+    if (!solver.ok()) return report::failed(kNoMemory);
+    for (int i = 0; i < 15; ++i) {
+      Field b = u;
+      for (Eigen::Index k = 0; k < b.size(); ++k) {
+        const double length = std::abs(u[k]);
+        b[k] = p.mass[std::size_t(k)] * (length > 0.0 ? u[k] / length : Complex(1.0));
+      }
+      u = solver.solve(b, u, 1e-5);
+    }
+  }
+  return u;
+}
 
 Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
   // Eigenvalues are pure numbers of about 10 here. The shift keeps a flat sheet, whose least is 0,
@@ -164,7 +192,8 @@ Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
   const ConnectionSolver solver(laplacian(m, p, 1.0, shift));
   if (!solver.ok()) return report::failed(kNoMemory);
 
-  Field u = project(p, Vec3d(0.003, 1.0, 0.001));
+  // Powers of the upward direction would bring all singularities to the poles.
+  Field u = p.turns == 1 ? project(p, Vec3d(0.003, 1.0, 0.001)) : Field::Zero(p.x.size());
   // A symmetric surface may have a smoothest field that is orthogonal to that.
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     const Vec2 random = math::Random(0x7a67u, std::uint64_t(i)).uniform2() - Vec2(0.5f, 0.5f);
@@ -197,7 +226,7 @@ Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
     }
     if (settled) break;
   }
-  return u;
+  return p.turns == 1 ? Result<Field>(std::move(u)) : spread(m, p, std::move(u));
 }
 
 Result<Field> steered(const Manifold& m, const TangentPlanes& p, const Vec3d& direction,
@@ -223,10 +252,10 @@ std::vector<TangentField::Singularity> singularities(const Manifold& m, const Ta
   for (std::uint32_t t = 0; 3 * t < m.twin.size(); ++t) {
     if (m.vertexOfCorner[3 * t] == kNone) continue;
     // The curvature of the triangle under scaled angles: over a closed surface it sums to 2πχ.
-    double turn = -kPi;
+    double turn = -p.turns * kPi;
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
       const std::uint32_t i = m.vertexOfCorner[h], j = m.vertexOfCorner[Manifold::next(h)];
-      turn += p.scale[i] * p.corner[h];
+      turn += p.turns * p.scale[i] * p.corner[h];
       turn += std::arg(u[j] * std::conj(u[i]) * std::polar(1.0, -p.transport(m, h)));
     }
     const int index = int(std::lround(turn / (2.0 * kPi)));
@@ -259,6 +288,7 @@ Result<WithFindings<TangentField>> tangentField(const scene::Mesh& mesh,
   if (!(options.steering >= 0.0f && options.steering <= 1.0f)) {
     return report::badUsage("steering must lie within 0 and 1");
   }
+  if (options.turns < 1) return report::badUsage("a tangent field has one direction at least");
   if (options.direction && !(options.direction->norm() > 0.0f && options.direction->allFinite())) {
     return report::badUsage("the direction that a tangent field follows must not be zero");
   }
@@ -267,7 +297,8 @@ Result<WithFindings<TangentField>> tangentField(const scene::Mesh& mesh,
     return report::badInput("the mesh " + mesh.name +
                             " has no triangle, so no surface to lay tangents on");
   }
-  const TangentPlanes p = tangentPlanes(mesh, m);
+  TangentPlanes p = tangentPlanes(mesh, m);
+  p.turns = options.turns;
   Result<Field> solved =
       options.direction && options.steering > 0.0f
           ? steered(m, p, options.direction->cast<double>().normalized(), options.steering)
@@ -293,7 +324,7 @@ Result<WithFindings<TangentField>> tangentField(const scene::Mesh& mesh,
     if (i == kNone || set[v]) continue;
     set[v] = true;
     const double length = std::abs(u[i]);
-    const Complex unit = length > 0.0 ? u[i] / length : Complex(1.0);
+    const Complex unit = length > 0.0 ? std::polar(1.0, std::arg(u[i]) / p.turns) : Complex(1.0);
     const Vec3d tangent = unit.real() * p.x[i] + unit.imag() * p.y[i];
     // Normals may point to the other side than the winding says: then the plane is turned over.
     const Vec3 normal = p.normal[i].cast<float>();

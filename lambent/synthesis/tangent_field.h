@@ -17,13 +17,19 @@ struct TangentFieldOptions {
   std::optional<Vec3> direction;
   /// How strongly it follows: 0 … 1; 1 projects the direction wherever that is possible.
   float steering = 0.9f;
+  /// How many directions, evenly around, are as good as one (N-RoSy, knoppel2013globally §3): 1; 4
+  /// for what quarter turns leave as it is.
+  int turns = 1;
 };
 
 struct TangentField {
-  std::vector<Vec3> tangents;  ///< one per vertex of the mesh, unit, at right angles to the normal
+  /// One per vertex of the mesh, unit, at right angles to the normal; of several equivalent
+  /// directions any one, not the same as its neighbours'.
+  std::vector<Vec3> tangents;
   struct Singularity {
     std::uint32_t triangle;
-    /// +1 or −1, rarely more; over a closed surface they sum to its Euler characteristic.
+    /// +1 or −1, rarely more; over a closed surface they sum to its Euler characteristic times
+    /// TangentFieldOptions::turns.
     int index;
   };
   std::vector<Singularity> singularities;
