@@ -364,27 +364,33 @@ std::vector<Chart> cutThrough(const WeldedSurface& surface, const Chart& chart,
       }
     if (length < shortest) shortest = length, chosen = direction;
   }
+  const auto touches = [&](std::uint32_t t) {
+    const auto& corners = surface.triangles[t];
+    return std::find(corners.begin(), corners.end(), vertex) != corners.end();
+  };
+  // What hangs together with the vertex on one side of the cut, and what is left, which may well
+  // reach over the cut elsewhere.
   std::vector<Chart> pieces;
   std::set<std::uint32_t> rest(chart.begin(), chart.end());
-  while (!rest.empty()) {
-    Chart& piece = pieces.emplace_back(1, *rest.begin());
-    rest.erase(rest.begin());
+  const auto flood = [&](std::uint32_t first, bool leftAlone) {
+    Chart& piece = pieces.emplace_back(1, first);
+    rest.erase(first);
     for (std::size_t i = 0; i < piece.size(); ++i)
       for (const std::uint32_t n : surface.neighbours[piece[i]])
-        if (n != kNoTriangle && rest.contains(n) && left(chosen, n) == left(chosen, piece[i]))
+        if (n != kNoTriangle && rest.contains(n) && (!leftAlone || left(chosen, n)))
           rest.erase(n), piece.push_back(n);
     std::sort(piece.begin(), piece.end());
-  }
-  const auto parted = [&] {
-    std::size_t with = 0;
-    for (const Chart& piece : pieces)
-      with += std::any_of(piece.begin(), piece.end(), [&](std::uint32_t t) {
-        const auto& corners = surface.triangles[t];
-        return std::find(corners.begin(), corners.end(), vertex) != corners.end();
-      });
-    return with > 1;
   };
-  return parted() ? pieces : cutInTwo(surface, chart, chartOf);
+  for (const std::uint32_t t : chart)
+    if (touches(t) && left(chosen, t)) {
+      flood(t, true);
+      break;
+    }
+  while (!rest.empty()) flood(*rest.begin(), false);
+  const auto with = std::count_if(pieces.begin(), pieces.end(), [&](const Chart& piece) {
+    return std::any_of(piece.begin(), piece.end(), touches);
+  });
+  return with > 1 ? pieces : cutInTwo(surface, chart, chartOf);
 }
 
 }  // namespace lambent::atlas

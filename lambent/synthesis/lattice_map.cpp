@@ -26,6 +26,7 @@
 #include <complex>
 #include <numeric>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
@@ -417,24 +418,40 @@ Vector wholeJumps(const Eigen::MatrixXcd& schur, const Vector& best,
     wanted[2 * j] = (std::conj(best[j]) * basis[1]).imag() / area;
     wanted[2 * j + 1] = (std::conj(basis[0]) * best[j]).imag() / area;
   }
-  Eigen::MatrixXd covariance = matrix.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  // What is not yet whole, the best of it given what is, and how it varies together.
+  std::vector<Eigen::Index> rest(static_cast<std::size_t>(n));
+  std::iota(rest.begin(), rest.end(), 0);
   Eigen::VectorXd x = wanted, whole = Eigen::VectorXd::Zero(n);
-  std::vector<bool> set(std::size_t(n), false);
-  for (Eigen::Index step = 0; step < n; ++step) {
-    Eigen::Index chosen = -1;
-    double least = 0.0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (set[std::size_t(i)]) continue;
+  Eigen::MatrixXd covariance = matrix.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  while (!rest.empty()) {
+    const auto cost = [&](Eigen::Index i) {
       const double off = std::round(x[i]) - x[i];
-      const double cost = off * off / std::max(covariance(i, i), 1e-300);
-      if (chosen < 0 || cost < least) chosen = i, least = cost;
+      return off * off / std::max(covariance(i, i), 1e-300);
+    };
+    // One at a time; of many, several at a time, or there would be no end.
+    std::vector<Eigen::Index> order(rest.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index i, Eigen::Index j) { return cost(i) < cost(j); });
+    const std::size_t now = n <= 256 ? 1 : std::max<std::size_t>(1, rest.size() / 16);
+    std::vector<Eigen::Index> taken(order.begin(), order.begin() + std::ptrdiff_t(now)),
+        left(order.begin() + std::ptrdiff_t(now), order.end());
+    std::sort(left.begin(), left.end());
+    Eigen::VectorXd off(taken.size());
+    for (std::size_t k = 0; k < now; ++k) {
+      const double rounded = std::round(x[taken[k]]);
+      off[Eigen::Index(k)] = rounded - x[taken[k]];
+      whole[rest[std::size_t(taken[k])]] = rounded;
     }
-    set[std::size_t(chosen)] = true;
-    whole[chosen] = std::round(x[chosen]);
-    const double variance = std::max(covariance(chosen, chosen), 1e-300);
-    const Eigen::VectorXd column = covariance.col(chosen);
-    x += (whole[chosen] - x[chosen]) / variance * column;
-    covariance -= column * (column.transpose() / variance);
+    const Eigen::MatrixXd own = covariance(taken, taken), with = covariance(left, taken);
+    const Eigen::MatrixXd gain = own.ldlt().solve(with.transpose()).transpose();
+    x = (x(left) + gain * off).eval();
+    Eigen::MatrixXd smaller = covariance(left, left);
+    smaller.noalias() -= gain * with.transpose();
+    covariance = std::move(smaller);
+    std::vector<Eigen::Index> remaining;
+    for (const Eigen::Index i : left) remaining.push_back(rest[std::size_t(i)]);
+    rest = std::move(remaining);
   }
   Eigen::VectorXd slope = matrix * (whole - wanted);
   for (int round = 0; round < 100; ++round) {
