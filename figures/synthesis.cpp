@@ -11,6 +11,7 @@
 #include "figures/relief.h"
 #include "figures/scenes.h"
 #include "figures/sheet.h"
+#include "lambent/bi_scale/asset_quality.h"
 #include "lambent/scene/shapes.h"
 
 namespace lambent::figures {
@@ -73,6 +74,14 @@ image::Image written(const std::vector<std::string>& lines, int width, int heigh
   return cell;
 }
 
+std::string shareOf(const std::optional<double>& share) {
+  return share ? fmt::format("{:.1f}%", 100.0 * *share) : "-";
+}
+
+std::string numberOf(const std::optional<double>& number) {
+  return number ? fmt::format("{:.3f}", *number) : "-";
+}
+
 }  // namespace
 
 void synthesisSheets(const Studio& studio) {
@@ -88,6 +97,12 @@ void synthesisSheets(const Studio& studio) {
   for (const std::string& name : studio.forms)
     if (std::none_of(all.begin(), all.end(), [&](const Form& f) { return f.name == name; }))
       die("synthesis: there is no form '" + name + "'");
+  for (const char* patch : kPatches)  // which prints what they cost, before the table
+    if (chosen(studio.patches, patch)) (void)rttNamed(studio, patch);
+  fmt::print(
+      "| patch | form | charts | singularities | goes on | tears | periods of tears per period² | "
+      "whole by area | whole | unlikeness | misfit | repetition | s |\n"
+      "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const char* patch : kPatches) {
     if (!chosen(studio.patches, patch)) continue;
     const transfer::SimulatedRtt rtt = rttNamed(studio, patch);
@@ -101,12 +116,27 @@ void synthesisSheets(const Studio& studio) {
       const double seconds =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const bi_scale::SpreadReport& report = spread.reports.front();
+      const auto measured = bi_scale::qualityOf(spread.asset);
+      const synthesis::ResultQuality& quality = measured.front().quality;
       const std::vector<std::string> lines = {
-          form.name, fmt::format("{} triangles", scene.meshes[0].triangles.size()),
-          fmt::format("{:.0f} patches", report.patches), fmt::format("{} charts", report.charts),
+          form.name,
+          fmt::format("{} triangles", scene.meshes[0].triangles.size()),
+          fmt::format("{:.0f} patches", report.patches),
+          fmt::format("{} charts", report.charts),
+          fmt::format("goes on {:.2f}%", 100.0 * quality.continued),
+          fmt::format("{} tears, {:.3f}", quality.tears.size(), quality.tearLength),
+          "whole by area " + shareOf(quality.wholeByArea),
+          "whole " + shareOf(quality.whole),
+          "unlikeness " + numberOf(quality.unlikeness),
+          "misfit " + numberOf(quality.misfit),
+          "repetition " + numberOf(quality.repetition),
           fmt::format("{:.0f} s", seconds)};
-      fmt::print("{} on {}: {:.0f} patches, {} charts, {} singularities, {:.1f} s\n", patch,
-                 form.name, report.patches, report.charts, report.singularities, seconds);
+      fmt::print(
+          "| {} | {} | {} | {} | {:.3f}% | {} | {:.3f} | {} | {} | {} | {} | {} | {:.0f} |\n",
+          patch, form.name, report.charts, report.singularities, 100.0 * quality.continued,
+          quality.tears.size(), quality.tearLength, shareOf(quality.wholeByArea),
+          shareOf(quality.whole), numberOf(quality.unlikeness), numberOf(quality.misfit),
+          numberOf(quality.repetition), seconds);
       std::fflush(stdout);
       const scene::Box box = scene::bounds(scene);
       // What is flat from further up than the rest.
