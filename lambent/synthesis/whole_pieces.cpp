@@ -14,9 +14,11 @@ namespace lambent::synthesis {
 namespace {
 
 constexpr int kFiner = 4;  ///< samples along a position of the patch
+constexpr int kNeck = 4;   ///< half the width of a neck at which pieces part, in samples
 constexpr double kSpeck = 0.05;
 constexpr double kWithin = 0.15;
-constexpr double kMostOfIt = 0.25;  ///< of the patch, that pieces cover at least
+constexpr double kToldApart = 0.97;  ///< whole, of the patch laid flat
+constexpr double kMostOfIt = 0.25;   ///< of the patch, that pieces cover at least
 
 /// The colour around which most places lie: the densest cell of a coarse grid of colours, and the
 /// mean of what lies near it.
@@ -66,6 +68,52 @@ double otsuThreshold(const std::vector<float>& values) {
     if (between >= best) last = k;
   }
   return (0.5 * (first + last) + 1.0) / kBins * double(most);
+}
+
+/// visit(sample) for those within `reach` samples of (x, y), over the borders of the period.
+template <class Visit>
+void around(int x, int y, int reach, int width, int height, const Visit& visit) {
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      if (dx * dx + dy * dy > reach * reach) continue;
+      const int px = (x + dx + width) % width, py = (y + dy + height) % height;
+      visit(std::size_t(py) * std::size_t(width) + std::size_t(px));
+    }
+}
+
+/// What is left of a class without its rim.
+std::vector<std::uint8_t> withoutRim(const std::vector<std::uint8_t>& isIn, int width, int height) {
+  std::vector<std::uint8_t> left = isIn;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      std::uint8_t& here = left[std::size_t(y) * std::size_t(width) + std::size_t(x)];
+      if (here) around(x, y, kNeck, width, height, [&](std::size_t at) { here &= isIn[at]; });
+    }
+  return left;
+}
+
+/// Gives pieces their rims back, where they do not come near another.
+void growRims(const std::vector<std::uint8_t>& isIn, PatchPieces& pieces) {
+  const std::vector<int> cores = pieces.pieceAt;
+  const double sample = 1.0 / double(cores.size());
+  pieces.areas.assign(pieces.areas.size(), 0.0);
+  for (int y = 0; y < pieces.height; ++y)
+    for (int x = 0; x < pieces.width; ++x) {
+      const std::size_t i = std::size_t(y) * std::size_t(pieces.width) + std::size_t(x);
+      int& here = pieces.pieceAt[i];
+      bool alone = true;
+      // Rims of two do not come nearer than five samples: no texel of a map leaps over that.
+      around(x, y, 2 * kNeck, pieces.width, pieces.height, [&](std::size_t at) {
+        if (cores[at] == PatchPieces::kBetween) return;
+        alone &= here == PatchPieces::kBetween || here == cores[at];
+        here = cores[at];
+      });
+      bool near = cores[i] >= 0;
+      around(x, y, kNeck, pieces.width, pieces.height,
+             [&](std::size_t at) { near |= cores[at] != PatchPieces::kBetween; });
+      if (!alone || !near || !isIn[i]) here = PatchPieces::kBetween;
+      if (here >= 0) pieces.areas[std::size_t(here)] += sample;
+    }
 }
 
 /// The connected parts of a class that end, numbered.
@@ -120,6 +168,32 @@ double covered(const PatchPieces& pieces) {
 
 }  // namespace
 
+namespace {
+
+/// What is measured of the patch laid flat, a unit a period, on texels askew to it.
+double wholeLaidFlat(const PatchPieces& pieces) {
+  constexpr int kSide = 288;
+  constexpr float kTexel = 1.0f / 96.0f;
+  const Vec2 x = kTexel * Vec2(std::cos(0.4f), std::sin(0.4f)), y(-x.y(), x.x());
+  WornTexels texels;
+  for (std::uint32_t v = 0; v < kSide; ++v)
+    for (std::uint32_t u = 0; u < kSide; ++u) {
+      const std::uint32_t i = v * kSide + u;
+      texels.positions.push_back(Vec3::Zero());  // of no matter to pieces
+      texels.places.push_back(float(u) * x + float(v) * y);
+      texels.areas.push_back(kTexel * kTexel);
+      texels.atEnd.push_back(u == 0 || v == 0 || u + 1 == kSide || v + 1 == kSide);
+      if (u + 1 < kSide) texels.steps.push_back({i, i + 1, kTexel});
+      if (v + 1 < kSide) texels.steps.push_back({i, i + kSide, kTexel});
+    }
+  Continuation unbroken;
+  unbroken.goesOn.assign(texels.steps.size(), 1);
+  const auto whole = wholePieces(texels, Vec2::Ones(), unbroken, pieces);
+  return whole ? whole->whole : 0.0;
+}
+
+}  // namespace
+
 int PatchPieces::at(const Vec2& q) const {
   const auto wrap = [](float t, int count) {
     return std::min(int((t - std::floor(t)) * float(count)), count - 1);
@@ -143,10 +217,11 @@ PatchPieces piecesOf(const PatchLook& look) {
   for (int k = 0; k < 2; ++k) {
     std::vector<std::uint8_t> isIn;
     for (const float a : away) isIn.push_back((double(a) > threshold) == (k == 0));
-    classes[std::size_t(k)] = endingParts(isIn, width, height);
+    classes[std::size_t(k)] = endingParts(withoutRim(isIn, width, height), width, height);
+    growRims(isIn, classes[std::size_t(k)]);
   }
   PatchPieces& more = covered(classes[0]) >= covered(classes[1]) ? classes[0] : classes[1];
-  if (covered(more) >= kMostOfIt) return std::move(more);
+  if (covered(more) >= kMostOfIt && wholeLaidFlat(more) >= kToldApart) return std::move(more);
   return {width, height, std::vector<int>(away.size(), PatchPieces::kBetween), {}};
 }
 

@@ -26,9 +26,11 @@ struct PatchPieces {
 
 /// Two classes by how far the colour of a place is from the patch's most frequent one (Otsu's
 /// threshold, otsu1979threshold); pieces are the connected parts of that class which covers more in
-/// parts that do not go on without end. Parts below a twentieth of the largest are specks, and lie
-/// between. Empty where they cover less than a quarter of the patch (the holes of a knit), or nothing
-/// ends.
+/// parts that do not go on without end. Parts are two where a neck between them is narrower than two
+/// positions; where two come so near, a little is taken off their rims, which no texel leaps over
+/// then. Parts below a twentieth of the largest are specks, and lie between. Empty where they cover
+/// less than a quarter of the patch (the holes of a knit), nothing ends, or they would not count as
+/// whole on the patch laid flat.
 PatchPieces piecesOf(const PatchLook& look);
 
 struct WholePieces {
