@@ -168,11 +168,6 @@ scene::Scene vase() {
   return scene;
 }
 
-scene::Camera zoomed(scene::Camera camera, const Vec3& target, float factor) {
-  const Vec3 eye = camera.worldFromCamera.block<3, 1>(0, 3);
-  return lookAt(eye, target, camera.verticalFov * 180.0f / float(kPi) / factor);
-}
-
 }  // namespace
 
 void biscaleFigure4(const Studio& studio) {

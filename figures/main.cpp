@@ -1,13 +1,15 @@
 // Makes the pictures and tables of docs/reproduction.md.
 //
-// usage: lambent_figures INPUTS OUTPUT [--quick] [--suns 60,94,…] [NAME …]
+// usage: lambent_figures INPUTS OUTPUT [--quick] [--suns 60,94,…] [--patches weave,…]
+//                        [--forms bunny,…] [NAME …]
 //   NAME: figure3 figure9 figure10 figure11 figure12 table1 diffuse-accuracy glossy-accuracy
 //         biscale-truth biscale-resolution biscale-figure1 biscale-figure3 biscale-figure4
 //         biscale-figure5 biscale-figure6 biscale-vase biscale-filter biscale-encodings
 //         biscale-rtt-methods capture-projection capture-figure5 sky-meridian sky-accuracy
 //         sky-optical-lengths sky-chromaticity sky-compact sky-preetham sky-aerial sky-24-hours
-//         sun-shadow refinement surfaces
+//         sun-shadow refinement surfaces synthesis
 //   --suns: the Sun's zenith angles, degrees, of sky-accuracy; an exact sky takes minutes.
+//   --patches, --forms: of synthesis, those alone; a patch on a form takes a minute.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,14 +28,22 @@
 #include "figures/sky.h"
 #include "figures/sun_shadow.h"
 #include "figures/surfaces.h"
+#include "figures/synthesis.h"
 
 namespace {
+
+/// What stands between commas.
+std::vector<std::string> wordsOf(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  return words;
+}
 
 /// "60,94": what is no number counts 0.
 std::vector<double> numbersOf(const std::string& list) {
   std::vector<double> numbers;
-  std::istringstream words(list);
-  for (std::string word; std::getline(words, word, ',');)
+  for (const std::string& word : wordsOf(list))
     numbers.push_back(std::strtod(word.c_str(), nullptr));
   return numbers;
 }
@@ -74,25 +84,32 @@ int main(int argc, char** argv) {
       {"sky-24-hours", sky24Hours},
       {"sun-shadow", sunShadow},
       {"refinement", refinement},
-      {"surfaces", surfaces}};
+      {"surfaces", surfaces},
+      {"synthesis", synthesisSheets}};
   Studio studio;
   std::vector<std::string> words(argv + 1, argv + argc), wanted;
   std::vector<std::string> places;
-  bool sunsFollow = false;
+  std::string option;  // that a list follows
   for (const std::string& word : words) {
     if (word == "--quick")
       studio.quick = true;
-    else if (word == "--suns")
-      sunsFollow = true;
-    else if (sunsFollow)
-      studio.suns = numbersOf(word), sunsFollow = false;
+    else if (option == "--suns")
+      studio.suns = numbersOf(word), option.clear();
+    else if (option == "--patches")
+      studio.patches = wordsOf(word), option.clear();
+    else if (option == "--forms")
+      studio.forms = wordsOf(word), option.clear();
+    else if (word == "--suns" || word == "--patches" || word == "--forms")
+      option = word;
     else if (places.size() < 2)
       places.push_back(word);
     else
       wanted.push_back(word);
   }
   if (places.size() < 2) {
-    fmt::print(stderr, "usage: lambent_figures INPUTS OUTPUT [--quick] [--suns LIST] [NAME ...]\n");
+    fmt::print(stderr,
+               "usage: lambent_figures INPUTS OUTPUT [--quick] [--suns LIST] [--patches LIST] "
+               "[--forms LIST] [NAME ...]\n");
     return 2;
   }
   studio.inputs = places[0], studio.output = places[1];

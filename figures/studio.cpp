@@ -102,4 +102,9 @@ scene::Camera lookAt(const Vec3& eye, const Vec3& target, float verticalFovDegre
   return camera;
 }
 
+scene::Camera zoomed(const scene::Camera& camera, const Vec3& target, float factor) {
+  const Vec3 eye = camera.worldFromCamera.block<3, 1>(0, 3);
+  return lookAt(eye, target, camera.verticalFov * 180.0f / float(kPi) / factor);
+}
+
 }  // namespace lambent::figures

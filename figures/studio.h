@@ -31,6 +31,7 @@ struct Studio {
   std::filesystem::path output;         ///< where pictures go
   bool quick = false;                   ///< fewer directions, paths and pixels, to try a figure out
   std::vector<double> suns = {60, 94};  ///< zenith angles of sky-accuracy, degrees
+  std::vector<std::string> patches, forms;  ///< of synthesis; empty: all
 
   /// RTTs that one figure built and another may want, by the patch's name.
   std::shared_ptr<std::map<std::string, transfer::SimulatedRtt>> rtts =
@@ -71,5 +72,7 @@ float exposureOf(const image::Image& picture);
 
 /// A camera at `eye` that looks at `target`.
 scene::Camera lookAt(const Vec3& eye, const Vec3& target, float verticalFovDegrees);
+/// From where `camera` stands, at `target`, as if from `factor` times as near.
+scene::Camera zoomed(const scene::Camera& camera, const Vec3& target, float factor);
 
 }  // namespace lambent::figures

@@ -274,6 +274,43 @@ Description describe(const asset::Asset& asset) {
   return d;
 }
 
+Description describe(const std::vector<bi_scale::MeshQuality>& layouts, const scene::Scene& scene) {
+  constexpr std::size_t kMostTears = 16;
+  Description d;
+  d.json = Json::array();
+  for (const bi_scale::MeshQuality& layout : layouts) {
+    const synthesis::ResultQuality& q = layout.quality;
+    const std::string& name = scene.meshes[layout.mesh].name;
+    d.text += fmt::format(
+        "  lay-out on {}: goes on over {:.3f}% of steps, {} tears, {:.3f} periods of "
+        "them in an area of one\n",
+        name.empty() ? fmt::format("mesh {}", layout.mesh) : name, 100.0 * q.continued,
+        formatCount(q.tears.size()), q.tearLength);
+    Json json = {{"mesh", layout.mesh},
+                 {"name", name},
+                 {"period", {layout.period.x(), layout.period.y()}},
+                 {"continued", q.continued},
+                 {"tear_length", q.tearLength},
+                 {"tear_count", q.tears.size()}};
+    Json& tears = json["tears"] = Json::array();
+    for (std::size_t k = 0; k < std::min(kMostTears, q.tears.size()); ++k)
+      tears.push_back({{"middle", asJson(q.tears[k].middle)}, {"length", q.tears[k].length}});
+    const auto add = [&](const char* key, const std::optional<double>& number) {
+      if (number) json[key] = *number;
+    };
+    add("whole_by_area", q.wholeByArea), add("whole", q.whole), add("unlikeness", q.unlikeness);
+    add("misfit", q.misfit), add("repetition", q.repetition);
+    if (q.whole)
+      d.text += fmt::format("    {:.1f}% of its pieces whole by their area, {:.1f}% in all\n",
+                            100.0 * *q.wholeByArea, 100.0 * *q.whole);
+    if (q.unlikeness)
+      d.text += fmt::format("    unlikeness {:.4f}, misfit {:.4f}\n", *q.unlikeness, *q.misfit);
+    if (q.repetition) d.text += fmt::format("    repetition {:.2f}\n", *q.repetition);
+    d.json.push_back(json);
+  }
+  return d;
+}
+
 Description describe(const asset::RttSummary& rtt) {
   const std::string views =
       rtt.views > 1 ? fmt::format("{}x{} views", rtt.views, rtt.views) : std::string("no views");

@@ -5,6 +5,7 @@
 
 #include "apps/lambent/console.h"
 #include "lambent/asset/summary.h"
+#include "lambent/bi_scale/asset_quality.h"
 #include "lambent/image/image.h"
 #include "lambent/scene/scene.h"
 #include "lambent/sh/coefficients.h"
@@ -21,6 +22,8 @@ Description describe(const scene::Scene& scene);
 /// Of its transfer alone.
 Description describe(const asset::Asset& asset);
 Description describe(const asset::RttSummary& rtt);
+/// How patches lie on the meshes of a scene. The longest tears are told, at most sixteen of each mesh.
+Description describe(const std::vector<bi_scale::MeshQuality>& layouts, const scene::Scene& scene);
 Description describe(const sh::RgbCoefficients& light);
 Description describe(const image::Image& image);
 

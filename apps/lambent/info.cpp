@@ -14,6 +14,7 @@
 #include "lambent/asset/asset.h"
 #include "lambent/asset/rtt_file.h"
 #include "lambent/asset/summary.h"
+#include "lambent/bi_scale/asset_quality.h"
 #include "lambent/file/atomic_file.h"
 #include "lambent/image/io.h"
 #include "lambent/image/maps.h"
@@ -29,6 +30,8 @@ namespace {
 constexpr std::string_view kInfoExamples = R"(Examples:
   lambent info model.glb          meshes, materials, cameras, and what is odd in them
   lambent info baked.glb          also: bands, directions, bounces, encoding
+  lambent info woven.glb --measure
+                                  also how well its patch lies: where it is torn, say
   lambent info weave.rtt          a patch: positions, views, bands, size
   lambent info sky.exr            size, range, layers, and what it is as a light
   lambent info cube:probe.exr     what any SOURCE of light is, as 'lambent light' reads it
@@ -42,8 +45,14 @@ struct Whole {
   Description description;
 };
 
-Result<Whole> describeModel(const std::filesystem::path& path, const ReadingArguments& reading,
-                            Console& console) {
+struct InfoRequest {
+  std::filesystem::path path;
+  bool measure = false;  ///< of assets: how their patches lie
+  ReadingArguments reading;
+};
+
+Result<Whole> describeModel(const InfoRequest& request, Console& console) {
+  const auto& [path, measure, reading] = request;
   if (extensionOf(path) == ".glb") {
     const Result<bool> baked = asset::isAsset(path);
     if (!baked) return baked.error();
@@ -54,6 +63,12 @@ Result<Whole> describeModel(const std::filesystem::path& path, const ReadingArgu
       const Description transfer = describe(*asset);
       scene.text += transfer.text;
       scene.json["transfer"] = transfer.json;
+      if (measure) {
+        const Description layouts = describe(
+            console.stage("measure", [&] { return bi_scale::qualityOf(*asset); }), asset->scene);
+        scene.text += layouts.text;
+        scene.json["layouts"] = layouts.json;
+      }
       return Whole{"asset", scene};
     }
   }
@@ -159,8 +174,9 @@ bool isSource(const std::string& name) {
   return sources::kindOf(name) || sources::sourceTerms(name).size() > 1;
 }
 
-Result<Whole> describeFile(const std::filesystem::path& path, const ReadingArguments& reading,
-                           Console& console) {
+Result<Whole> describeFile(const InfoRequest& request, Console& console) {
+  const std::filesystem::path& path = request.path;
+  const ReadingArguments& reading = request.reading;
   if (isSource(path.string())) {
     const auto light = describeLight(path.string(), reading, console, true);
     if (!light) return light.error();
@@ -168,7 +184,7 @@ Result<Whole> describeFile(const std::filesystem::path& path, const ReadingArgum
   }
   const std::string extension = extensionOf(sources::pictureNameOf(path.string()).path);
   if (extension == ".glb" || extension == ".gltf" || extension == ".obj" || extension == ".ply")
-    return describeModel(path, reading, console);
+    return describeModel(request, console);
   if (extension == ".rtt") {
     const auto rtt = asset::readRtt(path, reading.forAsset());
     if (!rtt) return rtt.error();
@@ -194,9 +210,10 @@ Result<Whole> describeFile(const std::filesystem::path& path, const ReadingArgum
       path.string(), extension));
 }
 
-Status runInfo(std::filesystem::path path, const ReadingArguments& reading, Console& console) {
+Status runInfo(InfoRequest request, Console& console) {
+  std::filesystem::path& path = request.path;
   if (Status s = console.takeInput(path, "FILE"); !s) return s;
-  const auto whole = describeFile(path, reading, console);
+  const auto whole = describeFile(request, console);
   if (!whole) return whole.error();
   Json json = {{"file", path.string()}, {"kind", whole->kind}};
   std::string head = fmt::format("{}: {}", path.string(), whole->kind);
@@ -214,10 +231,6 @@ Status runInfo(std::filesystem::path path, const ReadingArguments& reading, Cons
 }  // namespace
 
 Verb addInfo(CLI::App& root, ConsoleOptions& common) {
-  struct InfoRequest {
-    std::filesystem::path path;
-    ReadingArguments reading;
-  };
   auto arguments = std::make_shared<InfoRequest>();
   CLI::App* app =
       root.add_subcommand("info", "Say what is in a scene, an asset, an image or a light");
@@ -226,11 +239,13 @@ Verb addInfo(CLI::App& root, ConsoleOptions& common) {
   app->add_option("FILE", arguments->path,
                   "The file to look into, - for standard input, or a SOURCE of light (see below)")
       ->required();
+  app->add_flag(
+      "--measure", arguments->measure,
+      "Of an asset with meso-structure: also where its patch is torn, how many of its pieces "
+      "are whole, how much it looks like itself and how much it repeats itself");
   arguments->reading.addTo(*app);
   addCommonOptions(*app, common);
-  return {app, [arguments](Console& console) {
-            return runInfo(arguments->path, arguments->reading, console);
-          }};
+  return {app, [arguments](Console& console) { return runInfo(*arguments, console); }};
 }
 
 }  // namespace lambent::tool

@@ -51,8 +51,8 @@ struct RttRequest {
 };
 
 constexpr std::string_view kRttExamples = R"(
-PATCH is weave, holes, bin, flower, stucco or plaster; a height field (.png, .exr: black is low);
-a mesh (.glb, .gltf, .obj, .ply) that lies on the ground; or a measured BTF: a folder of rectified
+PATCH is weave, knit, holes, bin, bricks, scales, pebbles, flower, stucco or plaster; a height field
+(.png, .exr: black is low); a mesh (.glb, .gltf, .obj, .ply) that lies on the ground; or a measured BTF: a folder of rectified
 pictures (or its .csv) with a table
     file,view_theta,view_phi,light_theta,light_phi
 of degrees, theta from the normal, phi from the pictures' right towards their top.
@@ -353,7 +353,7 @@ Verb addRtt(CLI::App& root, ConsoleOptions& common) {
       ->capture_default_str()
       ->group(kRtt);
   addNumber(*app, "--seed", options.seed, kSeeds,
-            "Turns the directions, and draws another stucco or plaster")
+            "Turns the directions, and draws other pebbles, stucco or plaster")
       ->option_text("N")
       ->capture_default_str()
       ->group(kRtt);

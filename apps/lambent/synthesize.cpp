@@ -71,10 +71,10 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const SynthesizeRequest& argumen
 /// What the patch repeats, in words.
 std::string repeats(const synthesis::PatchSymmetry& symmetry) {
   if (!symmetry.regular()) return "the patch does not repeat itself within its period";
-  std::string text = symmetry.cells() > 1
-                         ? fmt::format("the patch repeats itself {} times within its period",
-                                       symmetry.cells())
-                         : std::string("the patch nearly repeats itself within its period");
+  std::string text =
+      symmetry.cells() > 1
+          ? fmt::format("the patch repeats itself {} times within its period", symmetry.cells())
+          : std::string("the patch nearly repeats itself within its period");
   if (symmetry.turns > 1)
     text += fmt::format(" and bears {} turns", symmetry.turns == 4 ? "quarter" : "half");
   return text;

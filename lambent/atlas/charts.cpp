@@ -359,7 +359,8 @@ std::vector<Chart> cutThrough(const WeldedSurface& surface, const Chart& chart,
     for (const std::uint32_t t : chart)
       for (int side = 0; side < 3; ++side) {
         const std::uint32_t n = surface.neighbours[t][side];
-        if (n != kNoTriangle && n > t && chartOf[n] == id && left(direction, t) != left(direction, n))
+        if (n != kNoTriangle && n > t && chartOf[n] == id &&
+            left(direction, t) != left(direction, n))
           length += edgeLength(surface, t, side);
       }
     if (length < shortest) shortest = length, chosen = direction;

@@ -220,8 +220,8 @@ struct Spreader {
     auto combed = fieldOf(index, symmetry->turns);
     if (!combed) return combed.error();
     const synthesis::Manifold manifold = synthesis::manifoldOf(scene.meshes[index]);
-    synthesis::CrossField field = synthesis::crossField(scene.meshes[index], manifold,
-                                                        combed->tangents, symmetry->turns);
+    synthesis::CrossField field =
+        synthesis::crossField(scene.meshes[index], manifold, combed->tangents, symmetry->turns);
     atlas::AtlasOptions how = options.atlas;
     for (const auto& s : field.singularities) how.cutAt.push_back(manifold.firstCorner[s.vertex]);
     // Where the patch turns, charts end: own UVs would have it turn in their midst.
@@ -233,8 +233,8 @@ struct Spreader {
     const scene::Mesh& mesh = scene.meshes[index];
     const Vec2 patch = placed.patch.scale * rtt.size;
     announce(progress, "lattice");
-    auto map = synthesis::latticeMap(manifold, field, atlas->chartOfTriangle, *symmetry, patch,
-                                     progress);
+    auto map =
+        synthesis::latticeMap(manifold, field, atlas->chartOfTriangle, *symmetry, patch, progress);
     if (!map) return named(map.error(), mesh, index);
     auto ids = staged(progress, "id map",
                       [&] { return synthesis::placeIds(*atlas, *map, options.atlas.size); });

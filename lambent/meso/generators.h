@@ -1,5 +1,5 @@
-// Patches by formula: the meso-structures of sloan2003biscale, Figures 4-6. All repeat themselves
-// exactly. A period that is not square stretches the pattern; lengths "in periods" are along x.
+// Patches by formula: the meso-structures of sloan2003biscale, Figures 4-6, and more. All repeat
+// themselves exactly. A period that is not square stretches the pattern; lengths "in periods" are along x.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +31,65 @@ struct WeaveOptions {
   int around = 40, along = 64;  ///< facets around a thread, and along a spacing
 };
 Patch weave(const WeaveOptions& options = {});
+
+/// Stockinette, the plain knit: courses of yarn along x, whose loops each come through one of the
+/// course below from behind, so that their legs make columns of Vs. Seen from its right side;
+/// through the gaps between yarns shows the backing.
+struct KnitOptions {
+  Vec2 size = Vec2(0.1f, 0.1f);  ///< metres: the period
+  int stitches = 3;              ///< side by side in a period, ≥ 1
+  int courses = 4;               ///< above each other in a period, ≥ 1
+  float yarn = 0.27f;            ///< its diameter, in widths of a stitch: it touches from 0.25 on
+  int plies = 3;                 ///< strands that the yarn is twisted from; 0: smooth
+  float plyDepth = 0.10f;        ///< of the grooves between strands, in radii
+  float turns = 6.0f;            ///< of the strands past each other over a stitch (rounded)
+  Rgb color = Rgb(0.52f, 0.20f, 0.24f);
+  Rgb backing = Rgb(0.06f, 0.04f, 0.04f);
+  Rgb glossy = Rgb::Zero();
+  float lobeExponent = 12.0f;   ///< of its gloss
+  int around = 24, along = 96;  ///< facets around the yarn, and along a stitch
+};
+Patch knit(const KnitOptions& options = {});
+
+/// Bricks in running bond with rounded edges: every other course is moved by half a brick.
+struct BrickOptions {
+  Vec2 size = Vec2(0.1f, 0.1f);  ///< metres: the period
+  int courses = 4;               ///< in a period, even, ≥ 2
+  int bricks = 2;                ///< of a course in a period, ≥ 1
+  float joint = 0.14f;           ///< width of the mortar, in courses
+  float rounding = 0.12f;        ///< radius of edges and corners, in courses
+  float depth = 0.16f;           ///< in courses
+  Rgb brick = Rgb(0.50f, 0.19f, 0.12f);
+  Rgb mortar = Rgb(0.56f, 0.53f, 0.48f);
+  int resolution = 192;  ///< samples a side
+};
+Patch bricks(const BrickOptions& options = {});
+
+/// Scales as a fish's, that lie over each other like tiles; their tips point towards −y.
+struct ScaleOptions {
+  Vec2 size = Vec2(0.1f, 0.1f);  ///< metres: the period
+  int rows = 4;                  ///< in a period, even, ≥ 2
+  int across = 3;                ///< scales of a row in a period, ≥ 1
+  float depth = 0.3f;            ///< in rows
+  Rgb tip = Rgb(0.30f, 0.52f, 0.46f);
+  Rgb root = Rgb(0.10f, 0.20f, 0.24f);
+  int resolution = 192;  ///< samples a side
+};
+Patch scales(const ScaleOptions& options = {});
+
+/// Round pebbles close to each other on the ground, no two alike.
+struct PebbleOptions {
+  Vec2 size = Vec2(0.1f, 0.1f);          ///< metres: the period
+  int count = 20;                        ///< in a period, ≥ 1
+  float gap = 0.14f;                     ///< between neighbours; in pebbles, as all that follows
+  float depth = 0.30f;                   ///< of the highest
+  Rgb light = Rgb(0.72f, 0.68f, 0.62f);  ///< pebbles lie between the two
+  Rgb dark = Rgb(0.40f, 0.37f, 0.35f);
+  Rgb ground = Rgb(0.12f, 0.09f, 0.07f);
+  std::uint64_t seed = 0;
+  int resolution = 256;  ///< samples a side
+};
+Patch pebbles(const PebbleOptions& options = {});
 
 /// A plate with round holes in staggered rows.
 struct HolesOptions {
@@ -94,7 +153,7 @@ struct PlasterOptions {
 };
 Patch plaster(const PlasterOptions& options = {});
 
-/// "weave", "holes", "bin", "flower", "stucco", "plaster".
+/// "weave", "knit", "holes", "bin", "bricks", "scales", "pebbles", "flower", "stucco", "plaster".
 std::vector<std::string_view> generatorNames();
 /// The patch of that name with its defaults, but for the period and the seed of random processes.
 /// None if there is no such generator.

@@ -87,8 +87,44 @@ TEST(Generators, ThreadsOfTheWeaveGoOverAndUnder) {
   EXPECT_EQ(scene->meshOf(hit.triangle), 2u);
 }
 
+TEST(Generators, EveryLoopOfTheKnitComesThroughTheOneBelow) {
+  KnitOptions options;
+  options.stitches = 1, options.courses = 3, options.size = Vec2(0.04f, 0.09f);
+  options.plies = 0, options.around = 12, options.along = 48;
+  const Patch patch = knit(options);
+  ASSERT_EQ(patch.scene.meshes.size(), 3u);
+  // Where axes of courses 0 and 1 cross, seen from above: on the way up from its foot a loop of
+  // course 1 first passes under course 0 (a leg), then over it (the head).
+  const auto axis = [&](int course, int row) {
+    Vec3 sum = Vec3::Zero();
+    for (int k = 0; k < options.around; ++k)
+      sum += patch.scene.meshes[course].positions[std::size_t(row * options.around + k)];
+    return Vec3(sum / float(options.around));
+  };
+  std::vector<bool> over;
+  float nearest = 1.0f;
+  // From the foot (a quarter of the way along) to the head.
+  for (int i = options.along / 4; i < 3 * options.along / 4; ++i)
+    for (int j = 0; j < options.along; ++j)
+      for (float shift : {-0.04f, 0.0f, 0.04f}) {
+        const Vec3 a = axis(1, i), b = axis(0, j) + Vec3(shift, 0, 0);
+        nearest = std::min(nearest, (a - b).norm());
+        const Vec3 da = axis(1, i + 1) - a, db = axis(0, j + 1) + Vec3(shift, 0, 0) - b;
+        const float det = da.x() * -db.y() + db.x() * da.y();
+        if (det == 0.0f) continue;
+        const Vec3 r = b - a;
+        const float s = (r.x() * -db.y() + db.x() * r.y()) / det;
+        const float t = (da.x() * r.y() - da.y() * r.x()) / det;
+        if (s < 0 || s >= 1 || t < 0 || t >= 1) continue;
+        over.push_back(a.z() + s * da.z() > b.z() + t * db.z());
+      }
+  EXPECT_EQ(over, (std::vector<bool>{false, true}));
+  // Yarns do not run into each other by more than a tenth of their thickness.
+  EXPECT_GT(nearest, 0.9f * options.yarn * 0.04f);
+}
+
 TEST(Generators, RandomProcessesFollowTheirSeed) {
-  for (const std::string_view name : {"stucco", "plaster"}) {
+  for (const std::string_view name : {"pebbles", "stucco", "plaster"}) {
     const Patch a = *generate(name, Vec2(0.1f, 0.1f), 1), b = *generate(name, Vec2(0.1f, 0.1f), 1);
     const Patch c = *generate(name, Vec2(0.1f, 0.1f), 2);
     EXPECT_EQ(a.scene.meshes[0].positions, b.scene.meshes[0].positions);

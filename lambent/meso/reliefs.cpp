@@ -5,29 +5,21 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
 
 #include "lambent/meso/generators.h"
 #include "lambent/meso/profile.h"
+#include "lambent/meso/relief.h"
 
 namespace lambent::meso {
 
-namespace {
-
-struct Relief {
-  double height;  ///< in periods along x
-  Rgb color;
-};
-
-/// A relief over the unit square, sampled at the middles of cells.
-Patch sampled(const char* name, const Vec2& size, int resolution,
-              const std::function<Relief(double x, double y)>& relief) {
+Patch relief(const char* name, const Vec2& size, int resolution,
+             const std::function<Relief(double x, double y)>& at) {
   assert(resolution >= 2);
   HeightField field;
   field.width = field.height = resolution;
   for (int y = 0; y < resolution; ++y)
     for (int x = 0; x < resolution; ++x) {
-      const Relief r = relief((x + 0.5) / resolution, (y + 0.5) / resolution);
+      const Relief r = at((x + 0.5) / resolution, (y + 0.5) / resolution);
       field.heights.push_back(static_cast<float>(r.height * double(size.x())));
       field.colors.push_back(r.color);
     }
@@ -37,14 +29,8 @@ Patch sampled(const char* name, const Vec2& size, int resolution,
   return patchOf(field, size, material, name);
 }
 
-Rgb mix(const Rgb& a, const Rgb& b, double t) {
-  return a + static_cast<float>(t) * (b - a);
-}
-
-}  // namespace
-
 Patch holes(const HolesOptions& options) {
-  return sampled("holes", options.size, options.resolution, [&](double x, double y) -> Relief {
+  return relief("holes", options.size, options.resolution, [&](double x, double y) -> Relief {
     const double middle = std::hypot(x - 0.5, y - 0.5);
     const double corner = std::hypot(fromWhole(x), fromWhole(y));
     const double r = std::min(middle, corner);
@@ -52,13 +38,13 @@ Patch holes(const HolesOptions& options) {
     const double wall = smooth(options.radius - options.wall, options.radius, r);
     const double lip = smooth(options.radius, options.radius + 1.5 * options.wall, r);
     return {options.depth * (-1.0 + 0.92 * wall + 0.08 * lip),
-            mix(options.floor, options.plate, smooth(0.0, 0.35, wall))};
+            mixed(options.floor, options.plate, smooth(0.0, 0.35, wall))};
   });
 }
 
 Patch bin(const BinOptions& options) {
   assert(options.compartments >= 1);
-  return sampled("bin", options.size, options.resolution, [&](double x, double y) -> Relief {
+  return relief("bin", options.size, options.resolution, [&](double x, double y) -> Relief {
     // Signed distance to a square with round corners in the middle of each cell.
     const double n = options.compartments;
     const double half = 0.5 * (1.0 - options.wall) - options.corner;
@@ -73,7 +59,7 @@ Patch bin(const BinOptions& options) {
     const double back = 0.16 * std::sqrt(1.0 - std::pow(1.0 - ridge, 2));
     const double dish = 0.05 * smooth(-half - options.corner, 0.0, outside);
     return {options.depth / n * (-1.0 + 0.79 * wall + back + dish * (1.0 - wall)),
-            mix(options.floor, options.walls, smooth(0.05, 0.4, wall))};
+            mixed(options.floor, options.walls, smooth(0.05, 0.4, wall))};
   });
 }
 
@@ -96,19 +82,20 @@ Patch flower(const FlowerOptions& options) {
     const double knob = 0.55 + 0.45 * std::sqrt(std::max(0.0, 1.0 - std::pow(r / 0.25, 2)));
     return {std::max(petal, heart * knob), heart};
   };
-  return sampled("flower", options.size, options.resolution, [&](double x, double y) -> Relief {
+  return relief("flower", options.size, options.resolution, [&](double x, double y) -> Relief {
     const double large = options.radius, little = 0.55 * options.radius;
     const Bloom a = bloom((x - 0.5) / large, (y - 0.5) / large, 0.0);
     const Bloom b = bloom(fromWhole(x) / little, fromWhole(y) / little, kPi / options.petals);
     const double height = std::max(a.height, 0.6 * b.height);
-    const Rgb color = mix(mix(options.ground, options.petal, smooth(0.02, 0.18, height)),
-                          options.heart, std::max(a.heart, b.heart));
+    const Rgb color = mixed(mixed(options.ground, options.petal, smooth(0.02, 0.18, height)),
+                            options.heart, std::max(a.heart, b.heart));
     return {options.depth * height, color};
   });
 }
 
 std::vector<std::string_view> generatorNames() {
-  return {"weave", "holes", "bin", "flower", "stucco", "plaster"};
+  return {"weave",  "knit",    "holes",  "bin",    "bricks",
+          "scales", "pebbles", "flower", "stucco", "plaster"};
 }
 
 std::optional<Patch> generate(std::string_view name, const Vec2& size, std::uint64_t seed) {
@@ -121,8 +108,12 @@ std::optional<Patch> generate(std::string_view name, const Vec2& size, std::uint
     return options;
   };
   if (name == "weave") return weave(sized(WeaveOptions{}));
+  if (name == "knit") return knit(sized(KnitOptions{}));
   if (name == "holes") return holes(sized(HolesOptions{}));
   if (name == "bin") return bin(sized(BinOptions{}));
+  if (name == "bricks") return bricks(sized(BrickOptions{}));
+  if (name == "scales") return scales(sized(ScaleOptions{}));
+  if (name == "pebbles") return pebbles(seeded(PebbleOptions{}));
   if (name == "flower") return flower(sized(FlowerOptions{}));
   if (name == "stucco") return stucco(seeded(StuccoOptions{}));
   if (name == "plaster") return plaster(seeded(PlasterOptions{}));

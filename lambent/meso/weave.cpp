@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "lambent/meso/generators.h"
+#include "lambent/meso/tube.h"
 
 namespace lambent::meso {
 
@@ -64,33 +66,18 @@ class Thread {
 /// One period of a thread's length, appended. `place` takes (along, sideways, up) to the patch.
 template <class Place>
 void append(scene::Mesh& mesh, const Thread& thread, const WeaveOptions& options,
-            const Place& place, bool mirrored) {
-  const int rows = options.along * options.threads, columns = options.around;
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (int row = 0; row <= rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      const double s = double(row) / options.along, angle = 2.0 * kPi * column / columns;
-      // The end repeats the beginning to the last bit, a period further on.
-      Vec3d p = thread.point(row == rows ? 0.0 : s, angle);
-      if (row == rows) p.x() += s * thread.spacing();
-      mesh.positions.push_back(place(p, true).template cast<float>());
-      mesh.normals.push_back(
-          place(thread.normal(row == rows ? 0.0 : s, angle), false).template cast<float>());
-    }
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column) {
-      const auto a = first + static_cast<std::uint32_t>(row * columns + column);
-      const auto b = first + static_cast<std::uint32_t>(row * columns + (column + 1) % columns);
-      const std::uint32_t c = a + static_cast<std::uint32_t>(columns);
-      const std::uint32_t d = b + static_cast<std::uint32_t>(columns);
-      if (mirrored) {
-        mesh.triangles.push_back({a, c, b});
-        mesh.triangles.push_back({b, c, d});
-      } else {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({b, d, c});
-      }
-    }
+            const Place& place, Winding winding) {
+  const int rows = options.along * options.threads;
+  appendTube(
+      mesh, rows, options.around,
+      [&](int row, double angle) {
+        // The end repeats the beginning to the last bit, a period further on.
+        const double s = double(row) / options.along, wrapped = row == rows ? 0.0 : s;
+        Vec3d p = thread.point(wrapped, angle);
+        if (row == rows) p.x() += s * thread.spacing();
+        return std::pair<Vec3d, Vec3d>(place(p, true), place(thread.normal(wrapped, angle), false));
+      },
+      winding);
 }
 
 scene::Material threadMaterial(const char* name, const Rgb& color, const WeaveOptions& options) {
@@ -133,7 +120,7 @@ Patch weave(const WeaveOptions& options) {
             const double side = p.y() + (isPoint ? offset : 0.0);
             return kind == 0 ? Vec3d(side, along, p.z()) : Vec3d(along, side, p.z());
           },
-          /*mirrored=*/kind == 0);
+          kind == 0 ? Winding::Turned : Winding::Kept);
     }
   }
   return patch;

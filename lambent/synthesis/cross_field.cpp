@@ -106,8 +106,8 @@ CrossField crossField(const scene::Mesh& mesh, const Manifold& m, std::span<cons
   for (std::uint32_t h = 0; h < 3 * count; ++h) {
     const std::uint32_t twin = m.twin[h];
     if (twin == kNone || m.vertexOfCorner[h] == kNone || twin < h) continue;
-    const Complex seen = field.direction[h / 3] * unfolded(field, h, twin) *
-                         std::conj(field.direction[twin / 3]);
+    const Complex seen =
+        field.direction[h / 3] * unfolded(field, h, twin) * std::conj(field.direction[twin / 3]);
     const int k = step * int(std::lround(std::arg(seen) / (0.5 * kPi * step)));
     field.matching[h] = std::uint8_t(k & 3);
     field.matching[twin] = std::uint8_t(-k & 3);

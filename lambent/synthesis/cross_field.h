@@ -18,10 +18,10 @@ namespace lambent::synthesis {
 /// for whoever looks along the mesh's normals from outside. Triangles that have no part in the
 /// manifold hold nothing.
 struct CrossField {
-  int turns = 1;  ///< 1, 2 or 4
-  std::vector<Vec3d> x, y;                            ///< per triangle, unit
+  int turns = 1;                                             ///< 1, 2 or 4
+  std::vector<Vec3d> x, y;                                   ///< per triangle, unit
   std::vector<std::array<std::complex<double>, 3>> corners;  ///< per triangle, metres; 0 first
-  std::vector<std::complex<double>> direction;        ///< per triangle: one of them, unit
+  std::vector<std::complex<double>> direction;               ///< per triangle: one of them, unit
   /// Per half-edge, quarter turns, 0 … 3: beyond it, in the triangle of its twin, the direction that
   /// continues this one's is that many quarter turns ahead of that triangle's own.
   std::vector<std::uint8_t> matching;

@@ -201,8 +201,8 @@ void Jumps::relate() {
 
 /// Sets t of one edge so that places come back to themselves around the vertex.
 void Jumps::close(std::uint32_t vertex, std::uint32_t parentEdge) {
-  Form total;          // of all other edges, as seen after the last
-  int after = 0;       // quarter turns since the parent edge was crossed
+  Form total;     // of all other edges, as seen after the last
+  int after = 0;  // quarter turns since the parent edge was crossed
   bool backwards = false, crossed = false;
   std::uint32_t c = m_.firstCorner[vertex];
   do {
@@ -292,8 +292,7 @@ class System {
       if (m.vertexOfCorner[h] == kNone) continue;
       const auto& p = field.corners[h / 3];
       const std::size_t apex = Manifold::previous(h) % 3;
-      const Complex angle =
-          (p[Manifold::next(h) % 3] - p[apex]) * std::conj(p[h % 3] - p[apex]);
+      const Complex angle = (p[Manifold::next(h) % 3] - p[apex]) * std::conj(p[h % 3] - p[apex]);
       const double cotangent = angle.real() / std::max(std::abs(angle.imag()), 1e-30);
       weights_[h] = std::clamp(0.5 * cotangent, 1.0 / 64.0, 64.0);
     }
@@ -312,7 +311,8 @@ class System {
       if (b.unknown != kNone) entries.emplace_back(int(b.unknown), int(b.unknown), w);
       if (a.unknown != kNone && b.unknown != kNone) {
         const Complex ba = -w * std::conj(b.factor) * a.factor;
-        if (b.unknown > a.unknown) entries.emplace_back(int(b.unknown), int(a.unknown), ba);
+        if (b.unknown > a.unknown)
+          entries.emplace_back(int(b.unknown), int(a.unknown), ba);
         else if (b.unknown < a.unknown)
           entries.emplace_back(int(a.unknown), int(b.unknown), std::conj(ba));
         else
@@ -393,7 +393,7 @@ class System {
   const CrossField& field_;
   const Corners& corners_;
   std::uint32_t variables_;
-  std::vector<double> weights_;  ///< per half-edge: cotangents
+  std::vector<double> weights_;             ///< per half-edge: cotangents
   std::optional<ConnectionSolver> solver_;  ///< of A
   Eigen::SparseMatrix<Complex> b_;
   Eigen::MatrixXcd c_, s_;

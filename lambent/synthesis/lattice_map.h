@@ -21,9 +21,9 @@ struct LatticeMap {
   /// Edges over which the patch goes on: all but those at a whole-numbered singularity, where it
   /// cannot. To within 1e-3 of a period, by a translation or turn of the patch's symmetry.
   std::size_t edges = 0, continued = 0;
-  double flipped = 0.0;   ///< share of the area where the patch lies face down
+  double flipped = 0.0;  ///< share of the area where the patch lies face down
   double squeezed = 0.0;  ///< … where it is below 2/3 or above 3/2 of its size along some direction
-  double stretch = 0.0;   ///< root mean square of ln(size), over area and directions
+  double stretch = 0.0;  ///< root mean square of ln(size), over area and directions
 };
 
 /// `field` as combed (its matching tells where the patch turns). The map is as rigid as the patch's

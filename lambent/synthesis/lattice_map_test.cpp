@@ -39,7 +39,8 @@ Laid laid(const scene::Mesh& mesh, int turns, float patch, std::optional<Vec3> d
   out.field = crossField(mesh, manifold, combed->value.tangents, turns);
   const std::vector<std::uint32_t> charts(mesh.triangles.size(), 0);
   comb(manifold, charts, out.field);
-  auto map = latticeMap(manifold, out.field, charts, symmetryOfTurns(turns), Vec2(patch, patch), {});
+  auto map =
+      latticeMap(manifold, out.field, charts, symmetryOfTurns(turns), Vec2(patch, patch), {});
   if (!map) ADD_FAILURE() << map.error().message;
   if (map) out.map = std::move(*map);
   return out;
@@ -54,7 +55,8 @@ int indexSum(const CrossField& field) {
 TEST(CrossField, IndicesSumToTheEulerCharacteristic) {
   for (const int turns : {1, 2, 4}) {
     EXPECT_EQ(indexSum(laid(scene::icosphere(1.0f, 4), turns, 0.4f).field), 2 * turns);
-    EXPECT_EQ(indexSum(laid(scene::flipped(scene::icosphere(1.0f, 4)), turns, 0.4f).field), 2 * turns);
+    EXPECT_EQ(indexSum(laid(scene::flipped(scene::icosphere(1.0f, 4)), turns, 0.4f).field),
+              2 * turns);
     EXPECT_EQ(indexSum(laid(scene::torus(1.0f, 0.4f, 60, 30), turns, 0.4f).field), 0);
     EXPECT_EQ(indexSum(laid(scene::box(Vec3(1, 2, 3), 8), turns, 0.4f).field), 2 * turns);
   }
@@ -78,9 +80,9 @@ TEST(CrossField, SingularitiesOfACrossAreSpread) {
 TEST(LatticeMap, GoesOnOverEveryEdge) {
   for (const int turns : {1, 2, 4}) {
     for (const scene::Mesh& mesh :
-         {scene::icosphere(1.0f, 4), scene::torus(1.0f, 0.4f, 60, 30),
-          scene::box(Vec3(1, 2, 3), 8), scene::gridPlane(3.0f, 1.0f, 30, 10),
-          scene::ring(0.5f, 1.0f, 0.3f, 40, 4), scene::flipped(scene::icosphere(1.0f, 3))}) {
+         {scene::icosphere(1.0f, 4), scene::torus(1.0f, 0.4f, 60, 30), scene::box(Vec3(1, 2, 3), 8),
+          scene::gridPlane(3.0f, 1.0f, 30, 10), scene::ring(0.5f, 1.0f, 0.3f, 40, 4),
+          scene::flipped(scene::icosphere(1.0f, 3))}) {
       const LatticeMap map = laid(mesh, turns, 0.4f).map;
       EXPECT_EQ(map.continued, map.edges);
       EXPECT_GT(map.edges, mesh.triangles.size());
@@ -136,7 +138,8 @@ TEST(LatticeMap, MirroredNormalsKeepThePatchReadable) {
                  f = sphere.positions[c] - sphere.positions[a];
       sides << e.dot(x), f.dot(x), e.dot(y), f.dot(y);
       Eigen::Matrix2f places;
-      places << map.places[3 * t + 1] - map.places[3 * t], map.places[3 * t + 2] - map.places[3 * t];
+      places << map.places[3 * t + 1] - map.places[3 * t],
+          map.places[3 * t + 2] - map.places[3 * t];
       const Eigen::Matrix2f grows = 0.4f * places * sides.inverse();
       EXPECT_GT(grows(0, 0), 0.5f);
       EXPECT_GT(grows(1, 1), 0.5f);

@@ -20,10 +20,10 @@ namespace {
 
 using Vec2d = Eigen::Vector2d;
 
-constexpr int kMostPlaces = 64;       ///< a side of the grid that is compared
-constexpr int kFinest = 16;           ///< cells along a side at most
-constexpr double kTranslated = 0.8;   ///< correlation from which a translation counts
-constexpr double kTurned = 0.9;       ///< … and a turn
+constexpr int kMostPlaces = 64;      ///< a side of the grid that is compared
+constexpr int kFinest = 16;          ///< cells along a side at most
+constexpr double kTranslated = 0.8;  ///< correlation from which a translation counts
+constexpr double kTurned = 0.9;      ///< … and a turn
 
 /// Responses seen from above, less their mean: [y][x][band, channel].
 struct Plan {
@@ -225,8 +225,8 @@ PatchSymmetry symmetryOf(const transfer::SimulatedRtt& rtt) {
     symmetry.turns = 2;
     symmetry.centre = (0.5 * half.at).cast<float>();
   }
-  const bool square = plan.width == plan.height &&
-                      std::abs(rtt.size.x() - rtt.size.y()) < 1e-3f * rtt.size.x();
+  const bool square =
+      plan.width == plan.height && std::abs(rtt.size.x() - rtt.size.y()) < 1e-3f * rtt.size.x();
   if (square) {
     const Peak quarter = turn(1);
     symmetry.quarterTurned = quarter.height;

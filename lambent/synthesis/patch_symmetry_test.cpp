@@ -28,7 +28,9 @@ transfer::SimulatedRtt uprightPatch(const Albedo& albedo, int side) {
   return rtt;
 }
 
-Rgb greyWeave(float u, float v) { return Rgb::Constant(weaveAlbedo(u, v).mean()); }
+Rgb greyWeave(float u, float v) {
+  return Rgb::Constant(weaveAlbedo(u, v).mean());
+}
 
 TEST(PatchSymmetry, AWeaveRepeatsItsThreadsAndTurnsByQuartersBetweenThem) {
   const PatchSymmetry found = symmetryOf(uprightPatch(greyWeave, 48));

@@ -132,9 +132,8 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const LatticeMap& la
           (atlas.mesh.uvs[c] - atlas.mesh.uvs[a]).cast<double>();
       if (from != texel && std::abs(sides.determinant()) > 1e-18) {
         const double step = 1.0 / size;
-        weights += sides.inverse() *
-                   Vec2d((double(texel % size) - double(from % size)) * step,
-                         (double(texel / size) - double(from / size)) * step);
+        weights += sides.inverse() * Vec2d((double(texel % size) - double(from % size)) * step,
+                                           (double(texel / size) - double(from / size)) * step);
       }
       const Vec2d place = q[0] + weights.x() * (q[1] - q[0]) + weights.y() * (q[2] - q[0]);
       ids.ids[2 * texel] = codeOf(place.x()), ids.ids[2 * texel + 1] = codeOf(place.y());

@@ -37,6 +37,11 @@ class Spread(BiScaleTest):
         bi_scale = info["transfer"]["meshes"][0]["bi_scale"]
         self.assertEqual(bi_scale["id_map"], [256, 256])
         self.assertEqual(info["transfer"]["rtts"][0]["width"], 16)
+        self.assertNotIn("layouts", info)
+        layout, = self.run_json("info", "ball.glb", "--measure")["layouts"]
+        self.assertAlmostEqual(layout["period"][0], 0.8, delta=1e-6)
+        self.assertGreater(layout["continued"], 0.8)
+        self.assertEqual(len(layout["tears"]), min(16, layout["tear_count"]))
         for backend in ("gl", "cpu"):
             self.run_tool("render", "ball.glb", "--light", "disc:30,45,40", "-o", backend + ".exr",
                           "--size", "96", "--backend", backend)
