@@ -37,7 +37,8 @@ struct SynthesizeRequest {
 constexpr std::string_view kSynthesizeExamples = R"(Examples:
   lambent rtt weave -o weave.rtt
   lambent synthesize bunny.obj --rtt weave.rtt -o bunny.glb
-      The weave over the whole bunny, with shadows and two bounces at the macro-scale.
+      The weave over the whole bunny, with shadows and two bounces at the macro-scale. It repeats
+      itself, and so it is laid as a lattice: every thread goes on.
   lambent synthesize bunny.obj --rtt stucco.rtt -o rough.glb --patch-width 0.3 --transfer shadowed
       A patch as wide as 0.3 units of the model.
   lambent synthesize bird.glb --rtt scales.rtt -o bird.glb --direction 0,0,1 --atlas-picture a.png
@@ -285,8 +286,8 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("X,Y,Z")
       ->group("Placement");
   addNumber(*app, "--randomness", options.randomness, {0.0, 1.0},
-            "0: repeat the patch wherever the surface lets it, right for a weave; 1: scatter "
-            "it about. Without it: what the patch bears")
+            "Of pieces: 0 repeats the patch wherever the surface lets it, 1 scatters it about. "
+            "Without it: what the patch bears")
       ->option_text("0..1")
       ->group("Placement");
   app->add_option("--mesh", arguments->meshes,
@@ -295,8 +296,8 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("NAME")
       ->group("Placement");
   addNumber(*app, "--vertices", options.mesoVertices, {0, 16000000},
-            "Vertices of the mesh that synthesis runs on; 0: one for each position of the "
-            "patch, to 960,000")
+            "Of pieces: vertices of the mesh that synthesis runs on; 0: one for each position of "
+            "the patch, to 960,000")
       ->option_text("N")
       ->capture_default_str()
       ->group("Placement");
