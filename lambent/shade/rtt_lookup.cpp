@@ -2,7 +2,6 @@
 // - sloan2003biscale: §5, "Accessing the RTT": bilinear over views, nearest over positions.
 // - shirley1997low: the square of the view samples (math::squareFromHemisphere).
 // - williams1983pyramidal: between positions and levels of the pyramid.
-//
 // - mcmillan1995plenoptic, policarpo2005relief: views of a relief, each with its depths, warped to
 //   one between them by a search along the ray.
 //
