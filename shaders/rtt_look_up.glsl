@@ -74,13 +74,15 @@ vec2 meeting(ivec4 level, int view, vec2 q, vec2 apart) {
   float height = high - over;
   float missed = height - heightSeen(level, view, q + height * apart);
   if (abs(missed) <= kSameHeight) return vec2(height, missed);
-  for (int i = 1; i <= kSearchSteps; ++i) {
-    if (!(under > 0.0)) break;
-    high = low;
-    over = under;
-    low = 0.5 - float(i) / float(kSearchSteps);
-    under = low - heightSeen(level, view, q + low * apart);
-  }
+  int i = 0;
+  do {
+    ++i;
+    bool goOn = under > 0.0;
+    high = goOn ? low : high;
+    over = goOn ? under : over;
+    low = goOn ? 0.5 - float(i) / float(kSearchSteps) : low;
+    under = goOn ? low - heightSeen(level, view, q + low * apart) : under;
+  } while (i < kSearchSteps && under > 0.0);
   height = over > under ? high + (low - high) * (over / (over - under)) : low;
   missed = height - heightSeen(level, view, q + height * apart);
   return vec2(height, missed);
@@ -113,14 +115,14 @@ vec3 seenThrough(int k, vec2 q, float between) {
     vec2 cell = place * vec2(level.xy) - (tile ? 0.0 : 0.5);
     vec2 low = floor(cell), upper = tile ? vec2(0.0) : cell - low;
     if (k == 0 && !tile) upper = clamp((upper - 0.5) / between + 0.5, 0.0, 1.0);
-    for (int corner = 0; corner < 4; ++corner) {
+    int corner = 0, corners = tile ? 1 : 4;
+    do {
       ivec2 right = ivec2(corner & 1, corner >> 1);
       vec2 part = mix(1.0 - upper, upper, bvec2(right));
-      if (part.x * part.y == 0.0) continue;
       ivec2 position = (ivec2(low) + right + level.xy) % level.xy;
       int row = (level.z + position.y * level.x + position.x) * views * views + view;
       sum += share * part.x * part.y * response(row);
-    }
+    } while (++corner < corners);
   }
   return sum / total;
 }
@@ -135,13 +137,19 @@ vec3 filtered(vec2 q, Probes probes) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < probes.count; ++i) {
     vec2 at = fract(q + (float(i) - 0.5 * float(probes.count - 1)) * probes.stride);
+#if LAMBENT_RELIEF
+    // A CPU's OpenGL runs what is passed over as well, and leaves a loop only at its end.
+    int which = 0, count = mixed == 0.0 ? 1 : 2;
+    do {
+      int k = which == 0 ? finer : coarser;
+      sum += (which == 0 ? 1.0 - mixed : mixed) *
+             seenThrough(k, at, k == 0 ? probes.between : 1.0);
+    } while (++which < count);
+#else
     for (int which = 0; which < 2; ++which) {
       float share = which == 0 ? 1.0 - mixed : mixed;
       if (share == 0.0) continue;
       int k = which == 0 ? finer : coarser;
-#if LAMBENT_RELIEF
-      sum += share * seenThrough(k, at, k == 0 ? probes.between : 1.0);
-#else
       ivec4 level = levels[k];
       // Level 0 at the nearest position, whose cell the place lies in, but where it is seen closely.
       bool tile = k == 0 && probes.between == 0.0;
@@ -155,8 +163,8 @@ vec3 filtered(vec2 q, Probes probes) {
         ivec2 place = (ivec2(low) + right + level.xy) % level.xy;
         sum += share * part.x * part.y * seen(level.z, place.y * level.x + place.x);
       }
-#endif
     }
+#endif
   }
   return sum / float(probes.count);
 }
