@@ -1,5 +1,6 @@
 // From the hemisphere of view directions to the unit square of the view samples (shirley1997low):
-// math::squareFromHemisphere, checked against it by a table test.
+// math::squareFromHemisphere, checked against it by a table test; and what a place of the square looks
+// along: the first two coordinates of math::hemisphereFromSquare over its third.
 
 vec2 squareFromHemisphere(vec3 d) {
   const float kQuarterPi = 0.785398163397448;
@@ -16,4 +17,16 @@ vec2 squareFromHemisphere(vec3 d) {
   float a = longer < 0.0 ? -radius : radius;
   float b = a * atan(shorter / longer) / kQuarterPi;
   return clamp(0.5 + 0.5 * (wide ? vec2(a, b) : vec2(b, a)), 0.0, 1.0);
+}
+
+vec2 slopeFromSquare(vec2 square) {
+  const float kQuarterPi = 0.785398163397448;
+  vec2 at = 2.0 * square - 1.0;
+  bool wide = abs(at.x) > abs(at.y);
+  float radius = wide ? at.x : at.y, shorter = wide ? at.y : at.x;
+  if (radius == 0.0) return vec2(0.0);
+  float angle = kQuarterPi * (shorter / radius);
+  float along = cos(angle), aside = sin(angle);
+  vec2 disc = radius * (wide ? vec2(along, aside) : vec2(aside, along));
+  return disc * (sqrt(2.0 - radius * radius) / (1.0 - radius * radius));
 }

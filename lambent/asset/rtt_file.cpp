@@ -1,7 +1,8 @@
 // The file, in little-endian bytes (spec/rtt.md):
 //
 //   "LRTT"  u32 version  u32 length of the JSON   JSON, padded with spaces to a multiple of 4
-//   float scales (snorm8 alone: one for each coefficient)   the numbers to the end of the file
+//   float scales (snorm8 alone: one for each coefficient)   the numbers
+//   since version 2: heights, a byte for each position and view, to the end of the file
 #include "lambent/asset/rtt_file.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ using transfer::Encoding;
 static_assert(std::endian::native == std::endian::little);
 
 constexpr char kMagic[4] = {'L', 'R', 'T', 'T'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kWithoutHeights = 1, kWithHeights = 2;
 
 struct Header {
   char magic[4];
@@ -70,18 +71,22 @@ Status writeRtt(const EncodedRtt& rtt, const std::filesystem::path& path) {
                                  {"encoding", transfer::nameOf(rtt.values.encoding)}};
   std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   while (text.size() % 4 != 0) text += ' ';
-  Header header{{}, kVersion, static_cast<std::uint32_t>(text.size())};
+  Header header{{},
+                rtt.heights.empty() ? kWithoutHeights : kWithHeights,
+                static_cast<std::uint32_t>(text.size())};
   std::memcpy(header.magic, kMagic, 4);
 
   std::vector<std::byte> bytes;
   bytes.reserve(sizeof header + text.size() + rtt.values.scales.size() * 4 +
-                rtt.values.size() * transfer::bytesPerNumber(rtt.values.encoding));
+                rtt.values.size() * transfer::bytesPerNumber(rtt.values.encoding) +
+                rtt.heights.size());
   append(bytes, std::span(&header, 1));
   append(bytes, text);
   append(bytes, rtt.values.scales);
   append(bytes, rtt.values.byte);
   append(bytes, rtt.values.half);
   append(bytes, rtt.values.single);
+  append(bytes, rtt.heights);
   return file::writeAtomically(path, std::span<const std::byte>(bytes));
 }
 
@@ -98,11 +103,11 @@ Result<EncodedRtt> readRtt(const std::filesystem::path& path, const ReadOptions&
     return bad(
         "not a radiance transfer texture: it does not begin with \"LRTT\". Make one with "
         "'lambent rtt'");
-  if (header.version != kVersion)
+  if (header.version != kWithoutHeights && header.version != kWithHeights)
     return bad("version " + std::to_string(header.version) +
                " of the format, where this Lambent "
                "reads " +
-               std::to_string(kVersion) + ": make it anew with 'lambent rtt'");
+               std::to_string(kWithHeights) + ": make it anew with 'lambent rtt'");
   rest = rest.subspan(sizeof header);
   if (header.jsonBytes > rest.size())
     return bad("cut off: its header says " + std::to_string(header.jsonBytes) +
@@ -123,7 +128,10 @@ Result<EncodedRtt> readRtt(const std::filesystem::path& path, const ReadOptions&
   rtt.values.encoding = *encoding;
   const std::size_t count = rtt.coefficientCount() * rtt.planeSize();
   const std::size_t scales = *encoding == Encoding::Snorm8 ? rtt.coefficientCount() : 0;
-  const std::size_t needed = scales * sizeof(float) + count * transfer::bytesPerNumber(*encoding);
+  const std::size_t heights =
+      header.version == kWithHeights ? rtt.positionCount() * rtt.viewCount() : 0;
+  const std::size_t needed =
+      scales * sizeof(float) + count * transfer::bytesPerNumber(*encoding) + heights;
   if (rest.size() != needed)
     return bad((rest.size() < needed ? "cut off: " : "too long: ") + std::to_string(rest.size()) +
                " bytes of numbers where " + std::to_string(needed) + " are needed");
@@ -134,15 +142,16 @@ Result<EncodedRtt> readRtt(const std::filesystem::path& path, const ReadOptions&
   switch (*encoding) {
     case Encoding::Snorm8:
       rtt.values.block = rtt.planeSize();
-      take(rest, rtt.values.byte, count);
+      rest = take(rest, rtt.values.byte, count);
       break;
     case Encoding::Float16:
-      take(rest, rtt.values.half, count);
+      rest = take(rest, rtt.values.half, count);
       break;
     case Encoding::Float32:
-      take(rest, rtt.values.single, count);
+      rest = take(rest, rtt.values.single, count);
       break;
   }
+  take(rest, rtt.heights, heights);
   if (const auto wrong = faultOf(rtt)) return bad(*wrong);
   return rtt;
 }

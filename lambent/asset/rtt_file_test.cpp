@@ -12,7 +12,7 @@ namespace {
 using test::bytesOf;
 using test::spill;
 
-transfer::EncodedRtt exampleRtt(transfer::Encoding encoding) {
+transfer::EncodedRtt exampleRtt(transfer::Encoding encoding, bool heights = true) {
   transfer::Rtt<transfer::Floats> rtt;
   rtt.name = "stripes \"fine\"";
   rtt.width = 5, rtt.height = 3, rtt.views = 2, rtt.bands = 3;
@@ -20,6 +20,9 @@ transfer::EncodedRtt exampleRtt(transfer::Encoding encoding) {
   rtt.depth = 0.02f;
   for (std::size_t i = 0; i < 9 * rtt.planeSize(); ++i)
     rtt.values.push_back(0.01f * float(i % 101) - 0.3f);
+  if (heights)
+    for (std::size_t i = 0; i < rtt.positionCount() * rtt.viewCount(); ++i)
+      rtt.heights.push_back(std::uint8_t(7 * i));
   return transfer::encode(rtt, encoding);
 }
 
@@ -45,7 +48,20 @@ TEST(RttFile, ComesBackInEveryEncoding) {
     EXPECT_EQ(back->values.byte, rtt.values.byte);
     EXPECT_EQ(back->values.scales, rtt.values.scales);
     EXPECT_EQ(back->values.block, rtt.values.block);
+    EXPECT_EQ(back->heights, rtt.heights);
   }
+}
+
+// As all were before heights were kept: what has been made stays readable.
+TEST(RttFile, WithoutHeightsIsAFileOfVersion1) {
+  const test::Folder folder;
+  const transfer::EncodedRtt rtt = exampleRtt(transfer::Encoding::Snorm8, false);
+  ASSERT_TRUE(writeRtt(rtt, folder / "a.rtt"));
+  EXPECT_EQ(bytesOf(folder / "a.rtt").at(4), std::byte(1));
+  const Result<transfer::EncodedRtt> back = readRtt(folder / "a.rtt");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->values.byte, rtt.values.byte);
+  EXPECT_TRUE(back->heights.empty());
 }
 
 TEST(RttFile, CutOffAnywhereIsBadInputThatNamesTheFile) {
@@ -85,7 +101,7 @@ TEST(RttFile, AnyByteChangedIsReadOrRefusedButNeverWorse) {
 
 TEST(RttFile, NumbersThatAreNotFiniteAreNeitherWrittenNorRead) {
   const test::Folder folder;
-  transfer::EncodedRtt rtt = exampleRtt(transfer::Encoding::Float32);
+  transfer::EncodedRtt rtt = exampleRtt(transfer::Encoding::Float32, false);
   ASSERT_TRUE(writeRtt(rtt, folder / "a.rtt"));
   std::vector<std::byte> bytes = bytesOf(folder / "a.rtt");
   const float nan = std::numeric_limits<float>::quiet_NaN();

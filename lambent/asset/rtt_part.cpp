@@ -10,10 +10,14 @@ using nlohmann::json;
 using transfer::EncodedRtt;
 
 json toJson(const EncodedRtt& rtt, scene_io::GltfBuilder& gltf) {
-  return {{"name", rtt.name},     {"width", rtt.width},
-          {"height", rtt.height}, {"views", rtt.views},
-          {"bands", rtt.bands},   {"size", {rtt.size.x(), rtt.size.y()}},
-          {"depth", rtt.depth},   {"values", toJson(rtt.values, gltf)}};
+  json object = {{"name", rtt.name},     {"width", rtt.width},
+                 {"height", rtt.height}, {"views", rtt.views},
+                 {"bands", rtt.bands},   {"size", {rtt.size.x(), rtt.size.y()}},
+                 {"depth", rtt.depth},   {"values", toJson(rtt.values, gltf)}};
+  if (!rtt.heights.empty())
+    object["heights"] = gltf.addAccessor(bytesOf(rtt.heights), Component::UnsignedByte, "SCALAR",
+                                         rtt.heights.size());
+  return object;
 }
 
 EncodedRtt rttShapeFrom(JsonFields& object, double deepest) {
@@ -32,6 +36,10 @@ EncodedRtt rttFrom(JsonFields object, AccessorReader& accessors) {
   EncodedRtt rtt = rttShapeFrom(object, std::numeric_limits<float>::max());
   JsonFields values = object.object("values");
   rtt.values = numbersFrom(values, accessors, Snorm8::Allowed);
+  if (object.has("heights")) {
+    rtt.heights = accessors.read<std::uint8_t>(object, "heights", Component::UnsignedByte, 1);
+    if (rtt.heights.empty()) object.complain("heights", "is empty");
+  }
   return rtt;
 }
 
@@ -64,6 +72,9 @@ Wrong faultOf(const EncodedRtt& rtt) {
   if (rtt.values.encoding == transfer::Encoding::Snorm8 &&
       (rtt.values.block != rtt.planeSize() || rtt.values.scales.size() != rtt.coefficientCount()))
     return std::string("snorm8 needs one scale for each coefficient");
+  if (!rtt.heights.empty() && rtt.heights.size() != rtt.positionCount() * rtt.viewCount())
+    return std::to_string(rtt.heights.size()) + " heights where " +
+           std::to_string(rtt.positionCount() * rtt.viewCount()) + " are needed";
   if (const auto at = firstNonFinite(rtt.values))
     return "not a finite number at coefficient " + std::to_string(*at / rtt.planeSize()) +
            ", place " + std::to_string(*at % rtt.planeSize());
@@ -71,7 +82,7 @@ Wrong faultOf(const EncodedRtt& rtt) {
 }
 
 void count(const EncodedRtt& rtt, PartBytes& bytes) {
-  bytes.rtts += transfer::bytesOf(rtt.values);
+  bytes.rtts += transfer::bytesOf(rtt.values) + rtt.heights.size();
 }
 
 }  // namespace lambent::asset

@@ -242,6 +242,16 @@ Numbers atEach(const std::vector<float>& one, std::size_t receivers, Encoding en
 
 }  // namespace
 
+Asset relief() {
+  Asset asset = biScale();
+  transfer::EncodedRtt& rtt = asset.transfer.rtts[0];
+  rtt.depth = 0.25f;
+  for (int place = 0; place < 8; ++place)
+    for (int view = 0; view < 4; ++view)
+      rtt.heights.push_back(std::uint8_t(place % 4 < 2 ? 255 - 10 * view : 5 * view));
+  return asset;
+}
+
 Asset keptShadowed() {
   constexpr float kThrough = 0.5f;
   const Rgb all = kThrough * Rgb(1.5f, 1.25f, 1.125f);
@@ -327,6 +337,7 @@ std::vector<std::pair<std::string, Asset>> samples() {
   return {{"unoccluded-square.glb", unoccludedSquare()},
           {"every-layout.glb", everyLayout()},
           {"bi-scale.glb", biScale()},
+          {"relief.glb", relief()},
           {"kept-shadowed.glb", keptShadowed()},
           {"second-uvs.glb", secondUvs()}};
 }

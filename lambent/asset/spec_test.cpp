@@ -59,7 +59,7 @@ TEST(Spec, WhatIsWrittenIsWhatTheSchemaSays) {
 
 TEST(Spec, BiScaleIsWhatTheSchemaSays) {
   const test::Folder folder;
-  ASSERT_TRUE(write(biScale(), folder / "asset.glb"));
+  ASSERT_TRUE(write(relief(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
   const json root = schema("glTF");
   expectDescribed(document["extensions"][test::kName], root, "root");
@@ -79,7 +79,7 @@ TEST(Spec, KeptShadowedTransferIsWhatTheSchemaSays) {
   const test::Folder folder;
   ASSERT_TRUE(write(keptShadowed(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
-  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.3");
+  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.4");
   const json described = schema("mesh.primitive");
   for (std::size_t i = 0; i < 2; ++i)
     expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][test::kName], described,
@@ -127,7 +127,8 @@ TEST(Spec, CommittedSamplesReadAsMeant) {
 TEST(Spec, FilesOfOlderVersionsReadAsMeant) {
   for (const auto& [file, asset] :
        {std::pair{"1.0/every-layout.glb", everyLayout()}, std::pair{"1.1/bi-scale.glb", biScale()},
-        std::pair{"1.2/kept-shadowed.glb", keptShadowed()}}) {
+        std::pair{"1.2/kept-shadowed.glb", keptShadowed()},
+        std::pair{"1.3/second-uvs.glb", secondUvs()}}) {
     SCOPED_TRACE(file);
     const json document =
         json::parse(test::Glb::parse(test::bytesOf(test::kSpec / "samples" / file)).json);

@@ -164,6 +164,7 @@ inline void expectSame(const transfer::EncodedRtt& a, const transfer::EncodedRtt
   EXPECT_EQ(a.size, b.size);
   EXPECT_EQ(a.depth, b.depth);
   expectSame(a.values, b.values);
+  EXPECT_EQ(a.heights, b.heights);
 }
 
 inline void expectSame(const transfer::NoTransfer&, const transfer::NoTransfer&) {}

@@ -82,8 +82,9 @@ struct Scratch {
   std::vector<double> direct, bounced, lobe, seen;  ///< rows
   std::vector<float> y, weights;
   std::vector<std::uint32_t> ids;
-  std::uint32_t backs = 0;   ///< views of one position that met no front
-  std::vector<double> sums;  ///< [coefficient][view][channel] of one position
+  std::uint32_t backs = 0;            ///< views of one position that met no front
+  std::vector<double> sums;           ///< [coefficient][view][channel] of one position
+  std::vector<std::uint8_t> heights;  ///< [view] of one position, as transfer::Rtt has them
   sh::ZonalMoments moments;
   float momentsOf = -1.0f;  ///< the exponent that `moments` belong to
 };
@@ -158,6 +159,7 @@ Status Builder::run(const work::Runner& runner, transfer::SimulatedRtt& rtt, Rtt
   facetLight_ = std::move(*light);
 
   rtt.values.assign(count_ * rtt.planeSize(), 0.0f);
+  if (viewCount_ > 1) rtt.heights.assign(rtt.positionCount() * viewCount_, 0);
   const std::size_t samples = viewCount_ * subSamples_.size();
   std::atomic<std::uint64_t> lightRays{facetLight_.rays}, backs{0};
   const Scratch prototype(options_.bands,
@@ -177,6 +179,9 @@ Status Builder::run(const work::Runner& runner, transfer::SimulatedRtt& rtt, Rtt
           for (std::size_t k = 0; k < viewCount_ * 3; ++k)
             to[k] = static_cast<float>(share * from[k]);
         }
+        if (viewCount_ > 1)
+          std::copy(scratch.heights.begin(), scratch.heights.end(),
+                    rtt.heights.begin() + std::ptrdiff_t(at * viewCount_));
         backs += scratch.backs;
       });
   if (!finished) return finished.error();
@@ -197,19 +202,27 @@ void Builder::position(int x, int y, Scratch& scratch) const {
   // Above everything, by more than rounding.
   const float start = extent.highest + 0.01f * extent.depth() + scene_.offset();
   scratch.backs = 0;
+  scratch.heights.assign(viewCount_, 0);
   for (std::size_t view = 0; view < viewCount_; ++view) {
     const Vec3& v = views_[view];
+    float height = 0.0f;
     for (const SubSample& sub : subSamples_) {
       const Vec3 through((x + sub.offset.x()) / options_.width * size_.x(),
                          (y + sub.offset.y()) / options_.height * size_.y(), extent.middle());
       const float back = (start - extent.middle()) / v.z();
       PeriodicHit hit;
-      if (scene_.trace(through + back * v, -v, hit) != RayEnd::Lit) {
+      hit.distance = (start - extent.lowest) / v.z();  // if nothing is met
+      const RayEnd end = scene_.trace(through + back * v, -v, hit);
+      height += start - hit.distance * v.z();
+      if (end != RayEnd::Lit) {
         ++scratch.backs;
         continue;
       }
       shade(scene_.surfaceAt(hit), hit, sub, view, scratch);
     }
+    height = height / static_cast<float>(subSamples_.size()) - extent.lowest;
+    scratch.heights[view] = static_cast<std::uint8_t>(
+        std::lround(255.0f * std::clamp(height / std::max(extent.depth(), 1e-30f), 0.0f, 1.0f)));
   }
 }
 

@@ -47,7 +47,8 @@ struct RttCost {
 
 /// B(u, v) of a patch. For every view v and sub-sample of a position u, the point that is seen is
 /// where the ray along −v through u on the plane midway in the patch's depth, from above all of it,
-/// first meets the surface; what is seen from behind or through a gap is black.
+/// first meets the surface; what is seen from behind or through a gap is black. Its height is kept
+/// where there is more than one view, as the mean over sub-samples.
 ///
 /// Errors: BadUsage for options out of range, BadInput as check(patch) and PeriodicScene::build
 /// say, Cancelled. `cost` may be null.

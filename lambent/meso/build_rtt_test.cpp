@@ -49,6 +49,39 @@ TEST(BuildRtt, APatchMovedByHalfAPeriodGivesTheRttMovedByHalf) {
   EXPECT_GT(relativeError(b, a), 0.05);  // it is not the same everywhere
 }
 
+// Where the ray of a view through a position is as high as is kept, there the surface is.
+TEST(BuildRtt, HeightsLieOnTheSurfaceThatIsSeen) {
+  RttOptions options = smallOptions(24, 4);
+  options.directions = 16, options.bounces = 0, options.supersample = 1;
+  const Patch patch = bumpyPatch(Rgb::Constant(0.7f));
+  const transfer::SimulatedRtt rtt = build(patch, options);
+  ASSERT_EQ(rtt.heights.size(), rtt.positionCount() * rtt.viewCount());
+  const Extent extent = extentOf(patch);
+  const auto periods = [](double x) { return 2 * kPi * (x / 0.1 - 0.5 / 48); };
+  double worst = 0.0;
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 24; ++x)
+      for (int view = 0; view < 16; ++view) {
+        const Vec3 v = viewDirection(4, view % 4, view / 4);
+        const double z =
+            rtt.heights[std::size_t((y * 24 + x) * 16 + view)] / 255.0 * extent.depth() +
+            extent.lowest;
+        const Vec3 at = Vec3((float(x) + 0.5f) / 240, (float(y) + 0.5f) / 240, extent.middle()) +
+                        v * ((float(z) - extent.middle()) / v.z());
+        const double u = periods(at.x()), w = periods(at.y());
+        const double surface =
+            0.006 * (std::sin(u) + 0.6 * std::sin(2 * w + u) + 0.5 * std::cos(3 * u - w));
+        worst = std::max(worst, std::abs(surface - z));
+      }
+  EXPECT_LT(worst, 0.02 * extent.depth());
+}
+
+TEST(BuildRtt, HeightsAreKeptWhereThereAreViewsToCorrect) {
+  RttOptions options = smallOptions(4, 1);
+  options.directions = 16, options.bounces = 0;
+  EXPECT_TRUE(build(bumpyPatch(Rgb::Constant(0.7f)), options).heights.empty());
+}
+
 TEST(BuildRtt, GeometryMayLieAnywhereAndReachOverThePeriod) {
   RttOptions options = smallOptions(6, 2);
   options.directions = 128;

@@ -191,6 +191,16 @@ Result<GlPatches::Rtt> GlPatches::makeRtt(int index, bool filter) const {
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
   rtt.texture = Texture(name);
   glTextureBuffer(name, GL_RGBA32UI, rtt.numbers.name());
+  if (filter && pyramid.relief != Vec2::Zero()) {
+    std::vector<std::uint8_t> heights;
+    for (const shade::RttLevel& level : pyramid.levels)
+      heights.insert(heights.end(), level.heights.begin(), level.heights.end());
+    rtt.relief = pyramid.relief;
+    rtt.heightBytes = makeBuffer(heights);
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    rtt.heights = Texture(name);
+    glTextureBuffer(name, GL_R8, rtt.heightBytes.name());
+  }
   if (Status s = checkGl("uploading a radiance transfer texture"); !s) return s.error();
   return rtt;
 }
@@ -210,18 +220,24 @@ Status GlPatches::addIdMap(std::uint32_t mesh) {
   return checkGl("uploading an id map");
 }
 
-Status GlPatches::addProgram(int bands, Encoding encoding, bool filter) {
-  const ProgramKey key(bands, encoding, filter);
+GlPatches::ProgramKey GlPatches::programOf(int index, const Rtt& rtt, bool filter) const {
+  const EncodedRtt& encoded = asset_->transfer.rtts[std::size_t(index)];
+  return {encoded.bands, encoded.values.encoding, filter, rtt.relief != Vec2::Zero()};
+}
+
+Status GlPatches::addProgram(const ProgramKey& key) {
   if (programs_.contains(key)) return Status::ok();
+  const auto [bands, encoding, filter, relief] = key;
   // Place, normal, tangent and texture coordinates are interpolated as well.
   GLint mostVaryings = 0;
   glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
   const bool interpolated = 4 * (groupsOf(bands) + 3) <= mostVaryings;
   const std::string defines = fmt::format(
       "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
+      "#define LAMBENT_RELIEF {:d}\n"
       "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_RTT_PLACE int\n#define LAMBENT_ID_MAP 1\n"
       "{}\n{}\n",
-      groupsOf(bands), interpolated, filter, numbersDefine(encoding),
+      groupsOf(bands), interpolated, filter, relief, numbersDefine(encoding),
       unrolledDefines(bands, encoding));
   std::vector<std::string> fragment = {defines};
   for (const char* name :
@@ -251,7 +267,8 @@ Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
     rtts_.emplace(biScale.patch.rtt, std::move(*made));
   }
   if (Status s = addIdMap(index); !s) return s;
-  if (Status s = addProgram(rtt.bands, rtt.values.encoding, filter); !s) return s;
+  if (Status s = addProgram(programOf(biScale.patch.rtt, rtts_.at(biScale.patch.rtt), filter)); !s)
+    return s;
 
   const std::size_t perVertex =
       std::max(sizeof(PatchVertex), shade::rttStride(rtt.bands) * sizeof(float));
@@ -287,10 +304,9 @@ Status GlPatches::choose(const shade::Showing& showing) {
       Result<Rtt> one = makeRtt(index, showing.filter);
       if (!one) return one.error();
       made.emplace(index, std::move(*one));
-      const EncodedRtt& encoded = asset_->transfer.rtts[std::size_t(index)];
-      if (Status s = addProgram(encoded.bands, encoded.values.encoding, showing.filter); !s)
-        return s;
     }
+    for (const auto& [index, rtt] : made)
+      if (Status s = addProgram(programOf(index, rtt, showing.filter)); !s) return s;
     rtts_ = std::move(made);
   }
   showing_ = showing;
@@ -323,8 +339,7 @@ void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
     const BiScale& biScale = biScaleOf(draw.mesh);
     const EncodedRtt& encoded = rttOf(draw.mesh);
     const Rtt& rtt = rtts_.at(biScale.patch.rtt);
-    const Program& program =
-        programs_.at({encoded.bands, encoded.values.encoding, showing_.filter});
+    const Program& program = programs_.at(programOf(biScale.patch.rtt, rtt, showing_.filter));
     program.use();
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
@@ -339,6 +354,10 @@ void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
     for (std::size_t k = 0; k < rtt.levels.size(); ++k)
       program.set(fmt::format("levels[{}]", k).c_str(), rtt.levels[k].width, rtt.levels[k].height,
                   rtt.levels[k].first, 0);
+    if (rtt.relief != Vec2::Zero()) {
+      program.set("relief", rtt.relief.x(), rtt.relief.y());
+      glBindTextureUnit(2, rtt.heights.name());
+    }
     glBindTextureUnit(0, rtt.texture.name());
     glBindTextureUnit(1, biScale.patch.idMap() ? idMaps_.at(draw.mesh).name() : 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, draw.vertices.name());

@@ -64,8 +64,12 @@ class GlPatches {
     Texture texture;
     std::vector<Level> levels;
     std::vector<float> scales;  ///< of its coefficients: what the light is multiplied with
+    Buffer heightBytes;
+    Texture heights;             ///< of all levels; none: views are not corrected
+    Vec2 relief = Vec2::Zero();  ///< as shade::RttPyramid
   };
-  using ProgramKey = std::tuple<int, transfer::Encoding, bool>;  ///< bands, encoding, filter
+  /// bands, encoding, filter, corrected views
+  using ProgramKey = std::tuple<int, transfer::Encoding, bool, bool>;
   struct Draw {
     std::uint32_t mesh = 0;
     Buffer vertices, triangles, corners;
@@ -75,7 +79,8 @@ class GlPatches {
 
   Result<Rtt> makeRtt(int index, bool filter) const;
   Status addIdMap(std::uint32_t mesh);
-  Status addProgram(int bands, transfer::Encoding encoding, bool filter);
+  ProgramKey programOf(int index, const Rtt& rtt, bool filter) const;
+  Status addProgram(const ProgramKey& key);
   const transfer::BiScale<transfer::Numbers>& biScaleOf(std::uint32_t mesh) const {
     return std::get<transfer::BiScale<transfer::Numbers>>(asset_->transfer.meshes[mesh]);
   }

@@ -62,6 +62,37 @@ TEST(GlPatches, EqualTheCpuForEveryEncodingWithAndWithoutAMap) {
       }
 }
 
+/// Smooth waves with heights, as every view sees them.
+transfer::SimulatedRtt wavyRtt(int side, int views, int bands) {
+  transfer::SimulatedRtt rtt = bumpyRtt(side, side, views, bands);
+  rtt.depth = 0.3f;
+  for (std::size_t p = 0; p < rtt.positionCount(); ++p)
+    for (std::size_t v = 0; v < rtt.viewCount(); ++v)
+      rtt.heights.push_back(std::uint8_t(
+          127.5 + 120 * std::sin(2 * kPi * double(p % std::size_t(side)) / side) *
+                      std::cos(2 * kPi * double(p / std::size_t(side)) / side + 0.1 * double(v))));
+  return rtt;
+}
+
+// A search that ends at the border of a position may end on either side of it.
+const test::Agreement kOfReliefs{std::size_t(1) << 40, 0.02, 0.3};
+
+TEST(GlPatches, EqualTheCpuWhereViewsAreCorrected) {
+  for (const bool map : {false, true})
+    for (const bool filter : {false, true}) {
+      SpreadOptions options = map ? mapped() : SpreadOptions();
+      options.encoding = Encoding::Float16;
+      asset::Asset asset;
+      addPatched(asset, scene::uvSphere(1.0f, 32, 16), wavyRtt(24, 6, 3), options);
+      addPatched(asset, scene::translated(scene::gridPlane(12, 12, 4, 4), Vec3(0, -1, 0)),
+                 bumpyRtt(16, 16, 6, 3), options);
+      shade::PictureOptions picture = small(2);
+      picture.showing.filter = filter;
+      expectAgreement("reliefs-" + std::to_string(map) + std::to_string(filter), asset,
+                      kPatchCamera, picture, filter ? kOfReliefs : test::Agreement());
+    }
+}
+
 TEST(GlPatches, EqualTheCpuForEveryMacroTransport) {
   for (const Encoding encoding : {Encoding::Snorm8, Encoding::Float16, Encoding::Float32}) {
     SpreadOptions options = mapped();

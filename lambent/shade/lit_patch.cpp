@@ -60,7 +60,8 @@ Rgb LitPatch::at(std::uint32_t triangle, float u, float v, const scene::SurfaceP
   const Mat3 frame = worldFromPatch(
       point.normal, w * biScale_.tangents[i] + u * biScale_.tangents[j] + v * biScale_.tangents[k]);
   const Vec3 seen = frame.transpose() * toViewer;
-  const RttViews views = viewsAround(pyramid_->views, viewDependent_ ? seen : Vec3(Vec3::UnitZ()));
+  const RttViews views = viewsAround(pyramid_->views, viewDependent_ ? seen : Vec3(Vec3::UnitZ()),
+                                     filter_ ? pyramid_->relief : Vec2(Vec2::Zero()));
 
   RttProbes probes;
   PatchPlaces places;

@@ -37,24 +37,33 @@ std::vector<Span> spans(int from, int to) {
   return result;
 }
 
-RttLevel halved(const RttLevel& fine, std::size_t perPosition) {
+RttLevel halved(const RttLevel& fine, std::size_t perPosition, std::size_t views) {
   RttLevel coarse;
   coarse.width = std::max(1, fine.width / 2);
   coarse.height = std::max(1, fine.height / 2);
   coarse.values.resize(std::size_t(coarse.width) * coarse.height * perPosition);
+  const std::size_t heights = fine.heights.empty() ? 0 : views;  // of a position
+  coarse.heights.resize(std::size_t(coarse.width) * coarse.height * heights);
   const std::vector<Span> across = spans(fine.width, coarse.width);
   const std::vector<Span> along = spans(fine.height, coarse.height);
   work::parallelFor(coarse.height, [&](int y) {
+    std::vector<float> height(heights);
     for (int x = 0; x < coarse.width; ++x) {
-      float* to = coarse.values.data() + (std::size_t(y) * coarse.width + x) * perPosition;
+      const std::size_t at = std::size_t(y) * coarse.width + x;
+      float* to = coarse.values.data() + at * perPosition;
+      std::fill(height.begin(), height.end(), 0.5f);  // so that cutting off rounds
       for (std::size_t j = 0; j < along[y].weights.size(); ++j)
         for (std::size_t i = 0; i < across[x].weights.size(); ++i) {
           const float weight = along[y].weights[j] * across[x].weights[i];
-          const float* from =
-              fine.values.data() +
-              ((std::size_t(along[y].first) + j) * fine.width + across[x].first + i) * perPosition;
+          const std::size_t place =
+              (std::size_t(along[y].first) + j) * fine.width + across[x].first + i;
+          const float* from = fine.values.data() + place * perPosition;
           for (std::size_t k = 0; k < perPosition; ++k) to[k] += weight * from[k];
+          for (std::size_t v = 0; v < heights; ++v)
+            height[v] += weight * float(fine.heights[place * views + v]);
         }
+      for (std::size_t v = 0; v < heights; ++v)
+        coarse.heights[at * views + v] = std::uint8_t(std::min(height[v], 255.0f));
     }
   });
   return coarse;
@@ -67,6 +76,7 @@ RttPyramid makePyramid(const transfer::Rtt<transfer::Floats>& rtt, int mostLevel
   RttPyramid pyramid;
   pyramid.views = rtt.views;
   pyramid.bands = rtt.bands;
+  if (!rtt.heights.empty()) pyramid.relief = rtt.depth * rtt.size.cwiseInverse();
   const int coefficients = rtt.bands * rtt.bands, stride = pyramid.stride();
   const std::size_t perPosition = pyramid.viewCount() * stride;
 
@@ -82,9 +92,10 @@ RttPyramid makePyramid(const transfer::Rtt<transfer::Floats>& rtt, int mostLevel
         std::copy_n(from + 3 * v, 3, to + v * stride + 3 * i);
     }
   });
+  first.heights = rtt.heights;
   while (int(pyramid.levels.size()) < mostLevels &&
          (pyramid.levels.back().width > 1 || pyramid.levels.back().height > 1))
-    pyramid.levels.push_back(halved(pyramid.levels.back(), perPosition));
+    pyramid.levels.push_back(halved(pyramid.levels.back(), perPosition, pyramid.viewCount()));
   return pyramid;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "lambent/shade/aligned_vector.h"
@@ -20,6 +21,8 @@ constexpr int rttStride(int bands) {
 struct RttLevel {
   int width = 0, height = 0;  ///< positions
   AlignedVector<float> values;
+  /// [y][x][view y][view x]: the mean of transfer::Rtt's; or none.
+  std::vector<std::uint8_t> heights;
 };
 
 /// Level 0 is the texture itself. A position of level k holds the mean response, view by view, of
@@ -29,6 +32,8 @@ struct RttLevel {
 struct RttPyramid {
   int views = 1;  ///< a side
   int bands = 0;
+  /// The patch's depth, in its periods along x and y; 0 where its heights are not known.
+  Vec2 relief = Vec2::Zero();
   std::vector<RttLevel> levels;
 
   std::size_t viewCount() const { return std::size_t(views) * std::size_t(views); }

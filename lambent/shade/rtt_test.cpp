@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lambent/math/directions.h"
 #include "lambent/shade/dispatch.h"
 #include "lambent/shade/patch_place.h"
 #include "lambent/shade/rtt_footprint.h"
@@ -103,6 +104,127 @@ TEST(RttLookup, MixesTheFourViewsAround) {
   // Straight above: the middle one of 7×7.
   const RttViews middle = viewsAround(7, Vec3::UnitZ());
   for (int v = 0; v < 4; ++v) EXPECT_TRUE(middle.weight[v] < 1e-5f || middle.index[v] == 24) << v;
+}
+
+const Vec3 kViewers[] = {Vec3(0, 0, 1), Vec3(0.3f, -0.4f, 0.5f), Vec3(-0.7f, 0.5f, 0.4f),
+                         Vec3(0.2f, 0.9f, 0.3f)};
+
+/// What a point of a pattern over a plane looks like, and its relief as views of it see it.
+double pattern(const Vec2& q) {
+  const double turn = 2 * kPi;
+  return 1 + 0.5 * std::sin(turn * (2 * q.x() + q.y())) +
+         0.3 * std::cos(turn * (q.x() - 3 * q.y()));
+}
+
+Vec2 slopeOf(const Vec3& v) {
+  return v.head<2>() / v.z();
+}
+
+/// A level plane so far above the middle, depths of a patch that is 0.4 by 0.2 of its periods deep.
+transfer::SimulatedRtt planeAt(std::uint8_t height) {
+  const int side = 64, views = 5;
+  const Vec2 relief(0.4f, 0.2f);
+  const Vec2 above = (float(height) / 255.0f - 0.5f) * relief;
+  transfer::SimulatedRtt rtt =
+      test::paintedRtt(side, side, views, [&](int x, int y, int vx, int vy) {
+        const Vec3 v = math::hemisphereFromSquare(
+            Vec2((float(vx) + 0.5f) / views, (float(vy) + 0.5f) / views));
+        const Vec2 q((float(x) + 0.5f) / side, (float(y) + 0.5f) / side);
+        return Rgb(Rgb::Constant(float(pattern(q + above.cwiseProduct(slopeOf(v))))));
+      });
+  rtt.depth = 0.02f;
+  rtt.size = Vec2(0.05f, 0.1f);
+  rtt.heights.assign(rtt.positionCount() * rtt.viewCount(), height);
+  return rtt;
+}
+
+float closelySeen(const RttPyramid& pyramid, const Vec2& q, const Vec3& toViewer, bool corrected) {
+  const std::vector<float> light(std::size_t(pyramid.stride()), 3.5449077f);
+  RttProbes probes;
+  probes.between = 1.0f;
+  const RttViews views = viewsAround(pyramid.views, toViewer.normalized(),
+                                     corrected ? pyramid.relief : Vec2(Vec2::Zero()));
+  return respond(pyramid, q, probes, views, light.data())[0];
+}
+
+TEST(RttParallax, APlaneIsShiftedByItsHeight) {
+  for (const int height : {0, 70, 255}) {
+    const RttPyramid pyramid = makePyramid(planeAt(std::uint8_t(height)));
+    double before = 0.0;
+    for (const Vec3& viewer : kViewers)
+      for (int i = 0; i < 40; ++i) {
+        const Vec2 q(float(i) / 40, float(i * 7 % 40) / 40);
+        const Vec2 above = (float(height) / 255.0f - 0.5f) * pyramid.relief;
+        const double truth = pattern(q + above.cwiseProduct(slopeOf(viewer)));
+        EXPECT_NEAR(closelySeen(pyramid, q, viewer, true), truth, 0.02);
+        before = std::max(before, std::abs(closelySeen(pyramid, q, viewer, false) - truth));
+      }
+    EXPECT_GT(before, 0.2) << "the views would agree without a correction";
+  }
+}
+
+TEST(RttParallax, AFlatPatchIsReadAsEver) {
+  transfer::SimulatedRtt rtt = test::bumpyRtt(8, 6, 4, 2);
+  const RttPyramid without = makePyramid(rtt);
+  rtt.heights.assign(rtt.positionCount() * rtt.viewCount(), 255);
+  rtt.depth = 0.0f;
+  const RttPyramid flat = makePyramid(rtt);
+  for (const Vec3& viewer : kViewers)
+    for (int i = 0; i < 50; ++i) {
+      const Vec2 q(float(i) / 50, float(i * 9 % 50) / 50);
+      EXPECT_EQ(closelySeen(flat, q, viewer, true), closelySeen(without, q, viewer, false));
+    }
+}
+
+// Positions and heights moved by some across the border, and read as much further on.
+TEST(RttParallax, RunsOverThePatchsBorder) {
+  const int side = 16, views = 4, by = 5;
+  transfer::SimulatedRtt rtt = test::bumpyRtt(side, side, views, 2);
+  rtt.depth = 0.35f;
+  for (int p = 0; p < side * side; ++p)
+    for (int v = 0; v < views * views; ++v)
+      rtt.heights.push_back(std::uint8_t(127 + 120 * std::sin(2 * kPi * (p % side) / side) *
+                                                   std::cos(2 * kPi * (p / side) / side)));
+  transfer::SimulatedRtt moved = rtt;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      for (int v = 0; v < views * views; ++v) {
+        const int toX = (x + by) % side, toY = (y + by) % side;
+        moved.heights[std::size_t((toY * side + toX) * views * views + v)] =
+            rtt.heights[std::size_t((y * side + x) * views * views + v)];
+        for (int i = 0; i < 4; ++i)
+          for (std::size_t c = 0; c < 3; ++c)
+            moved.values[moved.index(i, toX, toY, v % views, v / views) + c] =
+                rtt.values[rtt.index(i, x, y, v % views, v / views) + c];
+      }
+  const RttPyramid a = makePyramid(rtt), b = makePyramid(moved);
+  double changed = 0.0;
+  for (const Vec3& viewer : kViewers)
+    for (int i = 0; i < 64; ++i) {
+      const Vec2 q(float(i) / 64 + 0.003f, float(i * 11 % 64) / 64 + 0.003f);
+      Vec2 there = q + Vec2::Constant(float(by) / side);
+      there -= Vec2(there.array().floor());
+      EXPECT_NEAR(closelySeen(b, there, viewer, true), closelySeen(a, q, viewer, true), 1e-4);
+      changed = std::max(changed, std::abs(double(closelySeen(a, q, viewer, true)) -
+                                           closelySeen(a, q, viewer, false)));
+    }
+  EXPECT_GT(changed, 0.01);
+}
+
+// Between levels as well: as positions grow beyond the shifts, the correction goes.
+TEST(RttParallax, FadesOutWithTheLevels) {
+  const RttPyramid pyramid = makePyramid(planeAt(255));
+  const Vec3 viewer = kViewers[2].normalized();
+  const std::vector<float> light(std::size_t(pyramid.stride()), 3.5449077f);
+  const auto at = [&](const Vec2& q, float level, const Vec2& relief) {
+    RttProbes probes;
+    probes.level = level;
+    return respond(pyramid, q, probes, viewsAround(pyramid.views, viewer, relief), light.data())[0];
+  };
+  const Vec2 q(0.31f, 0.77f);
+  for (float level = 0.02f; level < 6.0f; level += 0.02f)
+    ASSERT_NEAR(at(q, level, pyramid.relief), at(q, level - 0.02f, pyramid.relief), 0.05);
+  EXPECT_NEAR(at(q, 6.0f, pyramid.relief), at(q, 6.0f, Vec2::Zero()), 1e-5);
 }
 
 double varianceOf(const RttProbes& probes, double positions, double width) {

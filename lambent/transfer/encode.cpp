@@ -60,9 +60,10 @@ BiScale<M> mapped(const BiScale<N>& from, const F& f) {
 
 template <class N, class F>
 auto mapped(const Rtt<N>& from, const F& f) {
-  const auto& [name, width, height, views, bands, size, depth, values] = from;
+  const auto& [name, width, height, views, bands, size, depth, values, heights] = from;
   auto made = f(values, from.planeSize());
-  return Rtt<decltype(made)>{name, width, height, views, bands, size, depth, std::move(made)};
+  return Rtt<decltype(made)>{name, width, height,          views,  bands,
+                             size, depth, std::move(made), heights};
 }
 
 /// `ofSurfaces` maps the numbers of vectors and glossy matrices and of RTTs, `ofBiScale` those of

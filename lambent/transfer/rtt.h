@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "lambent/math/types.h"
 #include "lambent/sh/coefficients.h"
@@ -32,6 +34,9 @@ struct Rtt {
   Vec2 size = Vec2(1.0f, 1.0f);  ///< metres: the patch's period along x and y
   float depth = 0.0f;            ///< metres between its lowest and its highest point
   N values;                      ///< [coefficient][y][x][view y][view x][channel]
+  /// [y][x][view y][view x]: how high what is seen stands, 0 at the lowest point of the patch and 255
+  /// at the highest, so that 127.5 lies in the plane that positions lie in. None: not known.
+  std::vector<std::uint8_t> heights;
 
   std::size_t positionCount() const { return std::size_t(width) * std::size_t(height); }
   std::size_t viewCount() const { return std::size_t(views) * std::size_t(views); }

@@ -1,7 +1,7 @@
 // Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L),
 // sloan2003biscale eq. 4, as shade::LitPatch. Alpha is as sample_alpha.glsl says.
 //
-// Before this text stand: #define LAMBENT_FILTER 0 or 1, and what these want: incident.glsl,
+// Before this text stand: #define LAMBENT_FILTER and LAMBENT_RELIEF, 0 or 1, and what these want: incident.glsl,
 // corner_weights.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl, rtt_look_up.glsl,
 // tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, sample_alpha.glsl.
 
@@ -19,6 +19,11 @@ layout(std430, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
 
 layout(binding = 0) uniform usamplerBuffer rtt;  // [level][y][x][view y][view x][group]
 layout(binding = 1) uniform usampler2D idMap;
+#if LAMBENT_RELIEF
+layout(binding = 2) uniform samplerBuffer heights;  // [level][y][x][view y][view x]
+
+float heightAt(int row) { return texelFetch(heights, row).r; }
+#endif
 
 uniform vec4 eye;         // position, 1; or, for an orthographic camera, direction to the viewer, 0
 uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of distance, and anyway

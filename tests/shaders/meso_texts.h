@@ -9,7 +9,8 @@
 
 #include "shaders/rtt_look_up.glsl"
 
-const uvec4* numbers = nullptr;  // [level][y][x][view y][view x][texel]
+const uvec4* numbers = nullptr;         // [level][y][x][view y][view x][texel]
+const std::uint8_t* heights = nullptr;  // [level][y][x][view y][view x]
 const transfer::IdMap* idMap = nullptr;
 
 int lightPlace(int) {
@@ -20,6 +21,9 @@ vec4 lightGroup(int, int) {
 }
 int rttPlace(int row) {
   return row * ((LAMBENT_GROUPS + kGroupsAFetch - 1) / kGroupsAFetch);
+}
+float heightAt(int row) {
+  return float(heights[row]) / 255.0f;
 }
 uvec4 rttWords(int first, int texel) {
   return numbers[first + texel];

@@ -188,11 +188,13 @@ describe("samples of the format", () => {
     "unoccluded-square.glb",
     "every-layout.glb",
     "bi-scale.glb",
+    "relief.glb",
     "kept-shadowed.glb",
     "second-uvs.glb",
     "1.0/every-layout.glb",
     "1.1/bi-scale.glb",
     "1.2/kept-shadowed.glb",
+    "1.3/second-uvs.glb",
   ])
     it(name, () => keeps(sampleOf(name)));
 

@@ -29,6 +29,7 @@ describe("samples", () => {
     "unoccluded-square.glb",
     "every-layout.glb",
     "bi-scale.glb",
+    "relief.glb",
     "kept-shadowed.glb",
     "second-uvs.glb",
   ])
@@ -36,6 +37,13 @@ describe("samples", () => {
       const description = await read(sample(name));
       assert.ok(description.primitives.size > 0);
     });
+
+  it("a patch of meso-structure may have heights", async () => {
+    const { rtts } = await read(sample("relief.glb"));
+    assert.equal(rtts[0].heights.length, 8 * 4);
+    assert.equal(rtts[0].heights[1], 245);
+    assert.equal((await read(sample("1.1/bi-scale.glb"))).rtts[0].heights, null);
+  });
 
   it("a grid may lie on the second set of texture coordinates", async () => {
     const { primitives } = await read(sample("second-uvs.glb"));

@@ -85,6 +85,12 @@ export function buildPatch(
     levelCount: { value: rttTexture.levelCount },
     levels: { value: rttTexture.levels },
   };
+  const heights = choices.filter ? rttTexture.heights : null;
+  if (heights) {
+    uniforms.relief = { value: rttTexture.relief };
+    uniforms.heights = { value: heights.texture };
+    uniforms.heightRows = { value: heights.rows };
+  }
   if (biScale.idMap) {
     const idMap = lease.take(`${source.key} ids`, () => idMapTexture(source, renderer));
     uniforms.idMap = { value: idMap };
@@ -101,6 +107,7 @@ export function buildPatch(
     groupsAFetch: kGroupsAFetch[encoding],
     fetch,
     filter: choices.filter,
+    relief: heights !== null,
     idMap: biScale.idMap !== null,
     surroundings,
   };

@@ -90,7 +90,11 @@ export interface RadianceTransferTexture {
   bands: number;
   /** The patch's period along x and y, metres. */
   size: [number, number];
+  /** Metres between its lowest and its highest point. */
+  depth: number;
   numbers: Numbers;
+  /** height × width × views × views: how high what is seen stands, 0 lowest, 255 highest. */
+  heights: Uint8Array | null;
 }
 
 export type TransferKind = "unshadowed" | "shadowed" | "interreflected";

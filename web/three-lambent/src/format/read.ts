@@ -227,7 +227,7 @@ async function readRtt(
   const size = fields.numbers("size", 2) as [number, number];
   if (!size.map(Math.fround).every((metres) => metres > 0 && Number.isFinite(metres)))
     fields.fail("size", "is not two numbers above 0");
-  fields.number("depth", 0);
+  const depth = fields.number("depth", 0);
   const plane = width * height * views * views * 3;
   const words = `${bands ** 2} coefficients × ${width}×${height} positions × ${views}×${views} views × 3`;
   const numbers = await accessors.numbers(
@@ -236,8 +236,14 @@ async function readRtt(
     words,
     plane,
   );
+  let heights: RadianceTransferTexture["heights"] = null;
+  if (fields.has("heights")) {
+    heights = (await accessors.read(fields, "heights", 5121, "SCALAR")) as Uint8Array;
+    if (heights.length !== plane / 3)
+      fields.fail("heights", `${heights.length} of them where ${plane / 3} are needed`);
+  }
   const name = fields.has("name") ? fields.string("name") : "";
-  return { name, width, height, views, bands, size, numbers };
+  return { name, width, height, views, bands, size, depth, numbers, heights };
 }
 
 async function readPrimitive(

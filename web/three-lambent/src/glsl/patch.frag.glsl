@@ -1,8 +1,8 @@
 // Exit radiance of a surface with meso-structure: B(q, v) · (M L), sloan2003biscale eq. 4, as
 // shaders/opengl/patch.frag.glsl and shade::LitPatch.
 //
-// Before this text stand: #define LAMBENT_FETCH, LAMBENT_FILTER, LAMBENT_ID_MAP, each 0 or 1, and what
-// these want: incident.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl,
+// Before this text stand: #define LAMBENT_FETCH, LAMBENT_FILTER, LAMBENT_RELIEF, LAMBENT_ID_MAP, each
+// 0 or 1, and what these want: incident.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl,
 // rtt_look_up.glsl, tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; the textures of the
 // first two; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0;
 // LAMBENT_CAPTURED 1 with captured.glsl, or 0.

@@ -19,7 +19,10 @@ type Json = Record<string, unknown>;
 export type AccessorSource = (index: unknown, place: string) => Pick<Block, "array" | "type">;
 
 /** Members that are indices of accessors, wherever they stand. */
-const kAccessors = new Set(["accessor", "scales", "positions", "normals", "covered", "tangents"]);
+const kAccessors = new Set([
+  ...["accessor", "scales", "positions", "normals", "covered", "tangents"],
+  "heights",
+]);
 /** Objects whose numbers belong to a picture, not to vertices. */
 const kPictures = new Set(["idMap", "grid"]);
 

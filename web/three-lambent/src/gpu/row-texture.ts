@@ -10,6 +10,8 @@ import {
   NearestFilter,
   RGBAFormat,
   RGBAIntegerFormat,
+  RedFormat,
+  UnsignedByteType,
   UnsignedIntType,
   type PixelFormat,
   type TextureDataType,
@@ -48,9 +50,11 @@ export function layoutUniform(layout: RowLayout): Int32Array {
   return Int32Array.of(layout.rowsALine, layout.linesALayer, layout.texelsARow);
 }
 
-type TexelData = Float32Array | Uint16Array | Int8Array | Uint32Array;
+type TexelData = Float32Array | Uint16Array | Int8Array | Uint32Array | Uint8Array;
 
 /**
+ * Of four numbers in a texel, but of one where they are unsigned bytes (0 … 1 in shaders).
+ *
  * An array texture that forgets its pixels once they are on the GPU: after a lost context it is to be
  * made again from the file's own bytes.
  */
@@ -69,7 +73,9 @@ export function makeRowTexture(data: TexelData, layout: RowLayout): DataArrayTex
         ? [RGBAFormat, HalfFloatType, "RGBA16F"]
         : data instanceof Int8Array
           ? [RGBAFormat, ByteType, "RGBA8_SNORM"]
-          : [RGBAIntegerFormat, UnsignedIntType, "RGBA32UI"];
+          : data instanceof Uint8Array
+            ? [RedFormat, UnsignedByteType, "R8"]
+            : [RGBAIntegerFormat, UnsignedIntType, "RGBA32UI"];
   texture.format = format;
   texture.type = type;
   texture.internalFormat = name as typeof texture.internalFormat;

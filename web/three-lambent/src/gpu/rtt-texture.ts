@@ -29,6 +29,8 @@ interface Level {
   height: number;
   /** [coefficient][y][x][view][3]; bytes count 1 each. */
   values: Numbers["data"];
+  /** [y][x][view] */
+  heights: Uint8Array | null;
 }
 
 interface Span {
@@ -48,6 +50,30 @@ function spans(from: number, to: number): Span[] {
       weights.push((Math.min(end, k + 1) - Math.max(begin, k)) / ratio);
     return { first, weights };
   });
+}
+
+function halvedHeights(
+  { width, heights }: Level,
+  across: Span[],
+  along: Span[],
+  views: number,
+): Uint8Array | null {
+  if (!heights) return null;
+  const means = new Float32Array(views);
+  const out = new Uint8Array(across.length * along.length * views);
+  let to = 0;
+  for (const row of along)
+    for (const column of across) {
+      means.fill(0.5); // so that cutting off rounds
+      for (let b = 0; b < row.weights.length; ++b)
+        for (let a = 0; a < column.weights.length; ++a) {
+          const weight = row.weights[b] * column.weights[a];
+          const from = ((row.first + b) * width + column.first + a) * views;
+          for (let v = 0; v < views; ++v) means[v] += weight * heights[from + v];
+        }
+      for (let v = 0; v < views; ++v) out[to++] = Math.min(means[v], 255);
+    }
+  return out;
 }
 
 function halved(fine: Level, coefficients: number, perPosition: number): Level {
@@ -71,7 +97,7 @@ function halved(fine: Level, coefficients: number, perPosition: number): Level {
               values[to + k] += weight * (half ? floatFromHalf(value) : value);
             }
           }
-  return { width, height, values };
+  return { width, height, values, heights: halvedHeights(fine, across, along, perPosition / 3) };
 }
 
 export class RttTexture {
@@ -80,12 +106,18 @@ export class RttTexture {
   /** width, height, first position, 0 for each of 16. */
   readonly levels: Int32Array = new Int32Array(4 * kMostLevels);
   readonly levelCount: number;
+  /** Of all levels, with their rows; null: views are not corrected. */
+  readonly heights: { texture: DataArrayTexture; rows: Int32Array } | null = null;
+  /** The patch's depth, in its periods along x and y. */
+  readonly relief: Float32Array;
 
   constructor(readonly rtt: RadianceTransferTexture) {
     const coefficients = rtt.bands ** 2;
     const viewCount = rtt.views ** 2;
     const { encoding, data } = rtt.numbers;
-    const pyramid: Level[] = [{ width: rtt.width, height: rtt.height, values: data }];
+    const pyramid: Level[] = [
+      { width: rtt.width, height: rtt.height, values: data, heights: rtt.heights },
+    ];
     let last = pyramid[0];
     while (pyramid.length < kMostLevels && (last.width > 1 || last.height > 1)) {
       last = halved(last, coefficients, 3 * viewCount);
@@ -126,6 +158,17 @@ export class RttTexture {
     });
     this.texture = makeRowTexture(words, layout);
     this.rows = layoutUniform(layout);
+    this.relief = Float32Array.from(rtt.size, (period) => rtt.depth / period);
+    if (!rtt.heights || !(rtt.depth > 0)) return;
+    const ofHeights = layOutRows(positions * viewCount, 1, what);
+    const heights = new Uint8Array(texelsOf(ofHeights));
+    let first = 0;
+    for (const level of pyramid) {
+      heights.set(level.heights!, first);
+      first += level.heights!.length;
+    }
+    const texture = makeRowTexture(heights, ofHeights);
+    this.heights = { texture, rows: layoutUniform(ofHeights) };
   }
 
   /** What a stored number 1 stands for, coefficient by coefficient. */
@@ -137,5 +180,6 @@ export class RttTexture {
 
   dispose(): void {
     this.texture.dispose();
+    this.heights?.texture.dispose();
   }
 }

@@ -29,6 +29,8 @@ export interface PatchShape {
   groupsAFetch: number;
   fetch: boolean;
   filter: boolean;
+  /** Whether views are corrected by their heights, which filtering takes. */
+  relief: boolean;
   idMap: boolean;
   surroundings: Surroundings;
 }
@@ -55,6 +57,7 @@ export function patchShaders(
     CAPTURED: flag(captured),
     NUMBERS: shape.numbers,
     FILTER: flag(shape.filter),
+    RELIEF: flag(shape.relief),
     ID_MAP: flag(shape.idMap),
     RESPONSE: responseMacros(coefficients, shape.groupsAFetch),
     RTT_PLACE: "ivec3",
