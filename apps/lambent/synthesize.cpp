@@ -32,6 +32,7 @@ struct SynthesizeRequest {
   std::optional<Size> tiles;
   bi_scale::SpreadOptions options;
   std::optional<Vec3> direction;
+  bool preview = false;
 };
 
 constexpr std::string_view kSynthesizeExamples = R"(Examples:
@@ -39,6 +40,8 @@ constexpr std::string_view kSynthesizeExamples = R"(Examples:
   lambent synthesize bunny.obj --rtt weave.rtt -o bunny.glb
       The weave over the whole bunny, with shadows and two bounces at the macro-scale. It repeats
       itself, and so it is laid as a lattice: every thread goes on.
+  lambent synthesize bunny.obj --rtt weave.rtt -o look.glb --preview
+      How it lies, within seconds and without shadows, before the whole is made.
   lambent synthesize bunny.obj --rtt stucco.rtt -o rough.glb --patch-width 0.3 --transfer shadowed
       A patch as wide as 0.3 units of the model.
   lambent synthesize bird.glb --rtt scales.rtt -o bird.glb --direction 0,0,1 --atlas-picture a.png
@@ -142,6 +145,23 @@ Json asJson(const bi_scale::SpreadReport& r) {
           {"matrix_error", r.matrixError}};
 }
 
+/// What shows how the patch lies, within seconds: as large as it will be, on fewer places.
+void hasten(SynthesizeRequest& arguments, const scene::Scene& scene,
+            const transfer::EncodedRtt& rtt) {
+  constexpr std::uint32_t kVertices = 100'000;
+  constexpr int kTexels = 1024;
+  bi_scale::SpreadOptions& options = arguments.options;
+  if (!(options.patchWidth > 0.0f)) {
+    double area = 0.0;
+    for (const std::uint32_t m : options.meshes) area += bi_scale::areaOf(scene.meshes[m]);
+    options.patchWidth = bi_scale::automaticPatchWidth(area, rtt, options.mesoVertices);
+  }
+  if (options.mesoVertices == 0) options.mesoVertices = kVertices;
+  options.mesoVertices = std::min(options.mesoVertices, kVertices);
+  options.atlas.size = std::min(options.atlas.size, kTexels);
+  arguments.transfer.options.kind = transfer::Kind::Unshadowed;
+}
+
 /// How many materials were there in parts alone.
 std::size_t makeWhole(scene::Scene& scene) {
   std::size_t count = 0;
@@ -192,6 +212,7 @@ Status run(SynthesizeRequest arguments, Console& console) {
     options.tiles = Vec2(float(arguments.tiles->width), float(arguments.tiles->height));
   }
   options.direction = arguments.direction;
+  if (arguments.preview) hasten(arguments, *scene, *rtt);
   options.transfer = arguments.transfer.chosen(console);
   options.transfer.bands = rtt->bands;
   options.seed = options.transfer.seed;
@@ -322,6 +343,11 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("OUT.png")
       ->group("Atlas");
   arguments->transfer.addTo(*app);
+  app->add_flag("--preview", arguments->preview,
+                "Within seconds, to look at how the patch lies: without shadows, on an id map of "
+                "1024 texels a side and, in pieces, of 100,000 vertices at most")
+      ->group("Placement")
+      ->excludes(app->get_option("--transfer"), app->get_option("--keep-shadowed"));
   addChoice(*app, "--encoding", options.matrixEncoding,
             {{"snorm8", transfer::Encoding::Snorm8},
              {"float16", transfer::Encoding::Float16},

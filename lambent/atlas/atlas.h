@@ -18,7 +18,7 @@ struct AtlasOptions {
   float maximumStretch = 1.5f;  ///< L² stretch of a chart above which it is cut in two (1: none)
   /// Corners, 3 · triangle + k, whose vertices no automatic chart may have inside: singularities of
   /// what is to lie over the atlas. Own UVs do not heed them.
-  std::vector<std::uint32_t> cutAt;
+  std::vector<std::uint32_t> cutAt = {};
 };
 
 struct Atlas {

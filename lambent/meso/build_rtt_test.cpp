@@ -257,10 +257,10 @@ TEST(BuildRtt, TellsOfTooFewViewsOfADeepPatch) {
     return std::any_of(built->findings.begin(), built->findings.end(),
                        [](const Finding& finding) { return finding.code == "few-views"; });
   };
-  EXPECT_TRUE(told(weave(), 8));
+  EXPECT_TRUE(told(weave(), 4));
   EXPECT_FALSE(told(weave(), 1));
-  EXPECT_FALSE(told(weave(), 16));
-  EXPECT_FALSE(told(plaster(), 8));
+  EXPECT_FALSE(told(weave(), 8));
+  EXPECT_FALSE(told(plaster(), 4));
 }
 
 }  // namespace

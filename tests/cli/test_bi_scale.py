@@ -32,7 +32,7 @@ class Spread(BiScaleTest):
         summary = self.spread("--patch-width", 0.8)
         surface = summary["surfaces"][0]
         self.assertAlmostEqual(surface["patches"], 4 * math.pi / 0.64, delta=1.0)
-        self.assertEqual(surface["singularities"], 2)
+        self.assertEqual((surface["layout"], surface["singularities"]), ("pieces", 2))
         info = self.run_json("info", "ball.glb")
         bi_scale = info["transfer"]["meshes"][0]["bi_scale"]
         self.assertEqual(bi_scale["id_map"], [256, 256])
@@ -49,6 +49,33 @@ class Spread(BiScaleTest):
         self.run_tool("shade", "ball.glb", "--light", "uniform", "-o", "ball.csv")
         mean = [sum(row[6 + c] for row in read_csv(self.path("ball.csv"))) for c in range(3)]
         self.assertGreater(min(mean), 0.0)
+
+    def test_what_repeats_itself_is_a_lattice_unless_it_is_not_to_be(self):
+        self.rtt("weave")
+        surface, = self.spread()["surfaces"]
+        # Its two colours bear half turns.
+        self.assertEqual((surface["layout"], surface["patch_symmetry"]["turns"]), ("lattice", 2))
+        self.assertEqual((surface["singularities"], surface["continued"]), (4, 1.0))
+        layout, = self.run_json("info", "ball.glb", "--measure")["layouts"]
+        self.assertGreater(layout["continued"], 0.99)
+        surface, = self.spread("--layout", "pieces")["surfaces"]
+        self.assertEqual((surface["layout"], surface["singularities"]), ("pieces", 2))
+        self.assertGreater(surface["meso_vertices"], 0)
+        surface, = self.spread("--layout", "lattice", "--direction", "0,1,0")["surfaces"]
+        self.assertEqual((surface["layout"], surface["continued"]), ("lattice", 1.0))
+
+    def test_a_preview_lies_as_the_whole_does(self):
+        self.rtt()
+        whole, = self.spread(output="whole.glb")["surfaces"]
+        summary = self.run_json("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "look.glb",
+                                "--preview")
+        look, = summary["surfaces"]
+        self.assertAlmostEqual(look["patch_width"], whole["patch_width"], delta=1e-6)
+        self.assertEqual(look["singularities"], whole["singularities"])
+        self.assertEqual(summary["transfer"]["kind"], "unshadowed")
+        refused = self.run_tool("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "look.glb",
+                                "--preview", "--transfer", "shadowed", code=2)
+        self.assertIn("--preview", refused.stderr)
 
     def test_the_file_is_sound_to_other_tools(self):
         self.rtt()
