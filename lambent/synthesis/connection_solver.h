@@ -26,7 +26,9 @@ class ConnectionSolver {
   Field solve(const Field& b, const Field& guess, double tolerance) const;
   /// The same roughly, at the cost of one step of the iteration: the aggregates' solution and the
   /// diagonal's. Exact where the matrix was factorised.
-  Field roughly(const Field& b) const { return direct_ ? Field(factor_.solve(b)) : precondition(b); }
+  Field roughly(const Field& b) const {
+    return direct_ ? Field(factor_.solve(b)) : precondition(b);
+  }
 
  private:
   void aggregate();
