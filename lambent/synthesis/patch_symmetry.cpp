@@ -185,6 +185,18 @@ std::array<Pair, 2> basisOf(std::vector<Pair> vectors, const Vec2d& metric) {
   }
 }
 
+/// Whether a quarter turn takes every vector of the lattice to another.
+bool turnsWithin(const std::array<Vec2, 2>& lattice) {
+  Eigen::Matrix2d basis;
+  basis << lattice[0].cast<double>(), lattice[1].cast<double>();
+  const Eigen::Matrix2d inverse = basis.inverse();
+  for (const Vec2& vector : lattice) {
+    const Vec2d times = inverse * Vec2d(-double(vector.y()), double(vector.x()));
+    if ((times - Vec2d(std::round(times.x()), std::round(times.y()))).norm() > 1e-3) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int PatchSymmetry::cells() const {
@@ -230,7 +242,7 @@ PatchSymmetry symmetryOf(const transfer::SimulatedRtt& rtt) {
   if (square) {
     const Peak quarter = turn(1);
     symmetry.quarterTurned = quarter.height;
-    if (quarter.height >= kTurned) {
+    if (quarter.height >= kTurned && turnsWithin(symmetry.lattice)) {
       symmetry.turns = 4;
       const Vec2d t = quarter.at;
       symmetry.centre = (0.5 * Vec2d(t.x() - t.y(), t.x() + t.y())).cast<float>();

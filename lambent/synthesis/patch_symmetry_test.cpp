@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "lambent/synthesis/test_patches.h"
 
 namespace lambent::synthesis {
