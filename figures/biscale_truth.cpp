@@ -286,7 +286,8 @@ void whatItIsMadeOf(const Studio& studio, const meso::Patch& patch, const std::s
   const trace::RayScene rays = orDie(trace::RayScene::build(stage.relief));
   const sh::RgbCoefficients light = lightsOf(studio)[0].coefficients;
   std::vector<Truth> truths;
-  std::string head = "| positions | views |", rule = "|---|---|", noise = "| noise | |";
+  std::string head = "| positions | views | read by their heights |", rule = "|---|---|---|",
+              noise = "| noise | | |";
   for (const Stage::View& view : stage.views) {
     truths.push_back(truthOf(stage, rays, view.camera, light, side, studio.paths(64)));
     head += " " + view.name + " |", rule += "---|";
@@ -298,21 +299,28 @@ void whatItIsMadeOf(const Studio& studio, const meso::Patch& patch, const std::s
       patchName, head, rule);
   struct Resolution {
     int positions, views, supersample;
+    bool corrected;
   };
-  for (const Resolution& r : {Resolution{64, 8, 2}, {128, 8, 1}, {64, 16, 1}, {128, 16, 1}}) {
+  for (const Resolution& r : {Resolution{64, 8, 2, false},
+                              {64, 8, 2, true},
+                              {128, 8, 1, true},
+                              {64, 16, 1, true},
+                              {128, 16, 1, true}}) {
     meso::RttOptions options = rttOptions(studio);
     options.width = options.height = studio.quick ? r.positions / 2 : r.positions;
     options.views = r.views, options.supersample = r.supersample;
     options.bounces = kBounces;
     options.directions = 64;
-    const BuiltRtt built = build(patch, options);
+    BuiltRtt built = build(patch, options);
+    if (!r.corrected) built.rtt.heights.clear();
     bi_scale::SpreadOptions wear;
     wear.placement = bi_scale::Placement::OwnUvs, wear.tiles = stage.tiles;
     wear.transfer.directions = 1024, wear.transfer.bounces = 0;
     const bi_scale::Spread worn = spread(stage.smooth, built.rtt, wear);
     shade::Showing off;
     off.mesoStructure = transfer::Kind::Unshadowed;
-    fmt::print("| {}x{} | {}x{} |", options.width, options.height, r.views, r.views);
+    fmt::print("| {}x{} | {}x{} | {} |", options.width, options.height, r.views, r.views,
+               r.corrected ? "yes" : "no");
     for (std::size_t v = 0; v < truths.size(); ++v) {
       const image::Image ours =
           photograph(worn.asset, light, off, {stage.views[v].camera, side, side, 64});
