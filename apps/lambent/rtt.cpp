@@ -52,8 +52,8 @@ struct RttRequest {
 
 constexpr std::string_view kRttExamples = R"(
 PATCH is weave, knit, holes, bin, bricks, scales, pebbles, flower, stucco or plaster; a height field
-(.png, .exr: black is low); a mesh (.glb, .gltf, .obj, .ply) that lies on the ground; or a measured BTF: a folder of rectified
-pictures (or its .csv) with a table
+(.png, .exr: black is low); a mesh (.glb, .gltf, .obj, .ply) that lies on the ground; or a measured
+BTF: a folder of rectified pictures (or its .csv) with a table
     file,view_theta,view_phi,light_theta,light_phi
 of degrees, theta from the normal, phi from the pictures' right towards their top.
 
