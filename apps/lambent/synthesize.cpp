@@ -97,14 +97,14 @@ std::string reportText(const bi_scale::SpreadReport& r) {
   };
   if (r.layout == bi_scale::Layout::Lattice) {
     text += fmt::format(
-        "    laid as a lattice, for {}\n"
+        "    laid as a lattice; {}\n"
         "    {} singularities; it goes on over {:.6g}% of the edges, {:.1f}% off its size (rms), "
         "by more than a half over {:.1f}% of the surface\n",
         repeats(r.symmetry), r.singularities, 100.0 * r.continued, 100.0 * r.sizeError,
         100.0 * r.squeezed);
     atlas();
   } else if (r.mesoVertices > 0) {
-    text += fmt::format("    laid in pieces, for {}\n", repeats(r.symmetry));
+    text += fmt::format("    laid in pieces; {}\n", repeats(r.symmetry));
     text += fmt::format(
         "    {} meso-vertices, {} singularities of the tangent field, randomness {:.2f}\n",
         formatCount(r.mesoVertices), r.singularities, r.randomness);

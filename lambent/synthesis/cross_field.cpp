@@ -11,7 +11,6 @@
 
 #include <Eigen/Geometry>
 
-#include "lambent/scene/shapes.h"
 #include "lambent/synthesis/frames.h"
 #include "lambent/work/parallel_for.h"
 
@@ -63,12 +62,7 @@ CrossField crossField(const scene::Mesh& mesh, const Manifold& m, std::span<cons
   field.x.resize(count), field.y.resize(count), field.corners.resize(count);
   field.direction.assign(count, 1.0);
   field.matching.assign(3 * count, 0);
-  scene::Mesh own;  // normals, where the mesh has none
-  if (mesh.normals.size() != mesh.positions.size()) {
-    own.positions = mesh.positions, own.triangles = mesh.triangles;
-    scene::computeNormals(own);
-  }
-  const std::vector<Vec3>& normals = own.normals.empty() ? mesh.normals : own.normals;
+  const std::vector<Vec3> normals = normalsOf(mesh);
   const std::vector<double> senses = sensesOf(mesh, m, normals);
   work::parallelFor(count, [&](std::size_t t) {
     const std::uint32_t component = m.componentOfTriangle(std::uint32_t(t));

@@ -1,11 +1,24 @@
-// Tangents carried from one plane to another by the least rotation.
+// The planes that tangents lie in, and tangents carried from one to another by the least rotation.
 #pragma once
+
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "lambent/math/types.h"
+#include "lambent/scene/shapes.h"
 
 namespace lambent::synthesis {
+
+/// Per vertex, unit: the mesh's own or, where it has none, angle-weighted ones.
+inline std::vector<Vec3> normalsOf(const scene::Mesh& mesh) {
+  if (mesh.normals.size() == mesh.positions.size()) return mesh.normals;
+  scene::Mesh bare;
+  bare.positions = mesh.positions, bare.triangles = mesh.triangles;
+  scene::computeNormals(bare);
+  return std::move(bare.normals);
+}
 
 /// `tangent`, at right angles to the unit normal `from`, turned by the least rotation that takes
 /// `from` to the unit normal `to`; unit length. Opposite normals leave it as it lies.

@@ -19,7 +19,6 @@
 
 #include <Eigen/Dense>
 
-#include "lambent/scene/shapes.h"
 #include "lambent/synthesis/frames.h"
 #include "lambent/synthesis/lattice_fit.h"
 #include "lambent/synthesis/whole_jumps.h"
@@ -153,12 +152,7 @@ Result<LatticeMap> latticeMap(const Manifold& m, const CrossField& field,
 
 std::vector<Vec3> vertexTangents(const scene::Mesh& mesh, const LatticeMap& map) {
   assert(map.tangents.size() == mesh.triangles.size());
-  scene::Mesh own;  // normals, where the mesh has none
-  if (mesh.normals.size() != mesh.positions.size()) {
-    own.positions = mesh.positions, own.triangles = mesh.triangles;
-    scene::computeNormals(own);
-  }
-  const std::vector<Vec3>& normals = own.normals.empty() ? mesh.normals : own.normals;
+  const std::vector<Vec3> normals = normalsOf(mesh);
   std::vector<Vec3> sums(mesh.positions.size(), Vec3::Zero());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];

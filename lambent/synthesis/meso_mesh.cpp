@@ -14,7 +14,6 @@
 
 #include <Eigen/Geometry>
 
-#include "lambent/scene/shapes.h"
 #include "lambent/synthesis/frames.h"
 #include "lambent/synthesis/manifold.h"
 #include "lambent/synthesis/meso_neighbours.h"
@@ -63,12 +62,7 @@ Result<MesoMesh> mesoMesh(const scene::Mesh& mesh, const TangentField& field,
       spreadOver(mesh, manifold, faces, options.vertices, levels, options.seed, progress);
   if (!spread) return spread.error();
 
-  scene::Mesh own;  // normals, where the mesh has none
-  if (mesh.normals.size() != mesh.positions.size()) {
-    own.positions = mesh.positions, own.triangles = mesh.triangles;
-    scene::computeNormals(own);
-  }
-  const std::vector<Vec3>& normals = own.normals.empty() ? mesh.normals : own.normals;
+  const std::vector<Vec3> normals = normalsOf(mesh);
 
   MesoMesh meso;
   meso.area = float(spread->area);

@@ -27,7 +27,6 @@
 #include <Eigen/Geometry>
 
 #include "lambent/math/random.h"
-#include "lambent/scene/shapes.h"
 #include "lambent/synthesis/connection_solver.h"
 #include "lambent/synthesis/frames.h"
 #include "lambent/synthesis/manifold.h"
@@ -308,12 +307,7 @@ Result<WithFindings<TangentField>> tangentField(const scene::Mesh& mesh,
 
   TangentField field;
   field.singularities = singularities(m, p, u);
-  scene::Mesh own;  // normals, where the mesh has none
-  if (mesh.normals.size() != mesh.positions.size()) {
-    own.positions = mesh.positions, own.triangles = mesh.triangles;
-    scene::computeNormals(own);
-  }
-  const std::vector<Vec3>& normals = own.normals.empty() ? mesh.normals : own.normals;
+  const std::vector<Vec3> normals = normalsOf(mesh);
   field.tangents.resize(mesh.positions.size());
   for (std::size_t v = 0; v < field.tangents.size(); ++v) {
     field.tangents[v] = normals[v].unitOrthogonal();  // of vertices that no triangle uses
