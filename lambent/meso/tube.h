@@ -3,12 +3,23 @@
 
 #include <cstdint>
 
+#include <Eigen/Geometry>
+
 #include "lambent/math/types.h"
 #include "lambent/scene/scene.h"
 
 namespace lambent::meso {
 
 enum class Winding { Kept, Turned };  ///< Turned: where the tube is laid out by a reflection
+
+/// The unit normal of a tube by its places, point(s, angle), at s along it: by differences.
+template <class Point>
+Vec3d tubeNormal(const Point& point, double s, double angle) {
+  const double h = 1e-5;
+  const Vec3d along = point(s + h, angle) - point(s - h, angle);
+  const Vec3d around = point(s, angle + h) - point(s, angle - h);
+  return around.cross(along).normalized();
+}
 
 /// Appends a tube open at both ends: `rows` stretches long, `columns` facets around. vertex(row,
 /// angle) is its place and its unit normal (a pair of Vec3d) for row 0 … rows and the angle in

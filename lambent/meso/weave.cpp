@@ -51,10 +51,7 @@ class Thread {
   double spacing() const { return spacing_; }
 
   Vec3d normal(double s, double angle) const {
-    const double h = 1e-5;
-    const Vec3d along = point(s + h, angle) - point(s - h, angle);
-    const Vec3d around = point(s, angle + h) - point(s, angle - h);
-    return around.cross(along).normalized();
+    return tubeNormal([&](double at, double around) { return point(at, around); }, s, angle);
   }
 
  private:
