@@ -107,7 +107,7 @@ Result<Gesture> gestureOf(const ScriptCommand& command) {
   const auto given = numbers(command, wheel ? 1 : 2, kFurthest);
   if (!given) return given.error();
   if (wheel) {
-    const Vec2 at = Eigen::Vector2d((*given)[1], (*given)[2]).cast<float>();
+    const Vec2 at = Vec2d((*given)[1], (*given)[2]).cast<float>();
     return Gesture{Kind::Zoom, Vec2::Zero(), at, float((*given)[0])};
   }
   for (const auto& [name, kind] : kKinds)

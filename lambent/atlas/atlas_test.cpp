@@ -21,8 +21,6 @@
 namespace lambent::atlas {
 namespace {
 
-using Vec2d = Eigen::Vector2d;
-
 double cross(const Vec2d& a, const Vec2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

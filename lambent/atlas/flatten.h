@@ -8,8 +8,6 @@
 
 namespace lambent::atlas {
 
-using Vec2d = Eigen::Vector2d;
-
 /// Where the chart's vertices lie (patch.chartVertices() of them), in metres: its area in the plane
 /// is its area on the surface. Every triangle keeps its winding, and the chart does not lie over
 /// itself. Nothing if no such layout was found: the chart should be cut. `patch` is a disc. A chart

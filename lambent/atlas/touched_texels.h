@@ -15,9 +15,9 @@ namespace lambent::atlas {
 /// With `margin`, all within it count as touched too; a negative one leaves out what is touched by
 /// no more than that.
 template <std::size_t N, class Visit>
-void forTouchedRows(const Eigen::Vector2d (&p)[N], double margin, const Visit& visit) {
+void forTouchedRows(const Vec2d (&p)[N], double margin, const Visit& visit) {
   double low = p[0].y(), high = p[0].y();
-  for (const Eigen::Vector2d& q : p) low = std::min(low, q.y()), high = std::max(high, q.y());
+  for (const Vec2d& q : p) low = std::min(low, q.y()), high = std::max(high, q.y());
   const int y0 = static_cast<int>(std::floor(low - margin));
   const int y1 = std::max(y0, static_cast<int>(std::floor(high + margin)));
   for (int y = y0; y <= y1; ++y) {
@@ -25,7 +25,7 @@ void forTouchedRows(const Eigen::Vector2d (&p)[N], double margin, const Visit& v
     const double top = std::max(std::min(high, y + 1 + margin), low);
     double left = std::numeric_limits<double>::infinity(), right = -left;
     for (std::size_t i = 0; i < (N == 2 ? 1 : N); ++i) {
-      const Eigen::Vector2d &a = p[i], &b = p[(i + 1) % N];
+      const Vec2d &a = p[i], &b = p[(i + 1) % N];
       const double lower = std::min(a.y(), b.y()), upper = std::max(a.y(), b.y());
       if (upper < bottom || lower > top) continue;
       for (const double at : {std::max(bottom, lower), std::min(top, upper)}) {

@@ -35,7 +35,7 @@ bool isEncoded(std::string_view space) {
   return space == "sRGB" || space == "Rec709" || space.starts_with("GammaCorrected");
 }
 
-Eigen::Vector2d point(const Imath::V2f& v) {
+Vec2d point(const Imath::V2f& v) {
   return {v.x, v.y};
 }
 

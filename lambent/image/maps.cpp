@@ -12,8 +12,6 @@
 namespace lambent::image {
 namespace {
 
-using Eigen::Vector2d;
-
 // How the faces of a cube lie in a picture, in cells of n × n pixels.
 struct CubeLayout {
   int n = 0;
@@ -78,14 +76,14 @@ FacePoint facePointOf(const Vec3d& d) {
   return d.z() > 0 ? FacePoint{4, d.x() / z, -d.y() / z} : FacePoint{5, -d.x() / z, -d.y() / z};
 }
 
-Vector2d pixelInLayout(const CubeLayout& layout, const FacePoint& p) {
+Vec2d pixelInLayout(const CubeLayout& layout, const FacePoint& p) {
   const CubeLayout::Cell& cell = layout.cells[p.face];
   const double a = cell.turned ? -p.a : p.a, b = cell.turned ? -p.b : p.b;
   return {layout.n * (cell.x + 0.5 * (a + 1)), layout.n * (cell.y + 0.5 * (b + 1))};
 }
 
 /// Which face's cell holds a pixel position, or −1: an empty cell of a cross.
-int faceAt(const CubeLayout& layout, const Vector2d& pixel) {
+int faceAt(const CubeLayout& layout, const Vec2d& pixel) {
   for (int f = 0; f < 6; ++f) {
     const CubeLayout::Cell& cell = layout.cells[f];
     if (pixel.x() >= cell.x * layout.n && pixel.x() <= (cell.x + 1) * layout.n &&
@@ -97,21 +95,20 @@ int faceAt(const CubeLayout& layout, const Vector2d& pixel) {
 }
 
 /// Position within a face (also beyond its rim) of a pixel position.
-Vector2d pointInFace(const CubeLayout& layout, int face, const Vector2d& pixel) {
+Vec2d pointInFace(const CubeLayout& layout, int face, const Vec2d& pixel) {
   const CubeLayout::Cell& cell = layout.cells[face];
-  const Vector2d p(2 * (pixel.x() / layout.n - cell.x) - 1,
-                   2 * (pixel.y() / layout.n - cell.y) - 1);
-  return cell.turned ? Vector2d(-p) : p;
+  const Vec2d p(2 * (pixel.x() / layout.n - cell.x) - 1, 2 * (pixel.y() / layout.n - cell.y) - 1);
+  return cell.turned ? Vec2d(-p) : p;
 }
 
-Vec3d latLongDirection(const MapShape& shape, const Vector2d& pixel) {
+Vec3d latLongDirection(const MapShape& shape, const Vec2d& pixel) {
   const double azimuth = 2 * kPi * (pixel.x() / shape.width - 0.5);
   const double elevation = kPi * (0.5 - pixel.y() / shape.height);
   return math::directionFromAzimuthElevation(azimuth, elevation);
 }
 
 /// The disc of a round map as [−1, 1]², y upwards.
-Vector2d discPoint(const MapShape& shape, const Vector2d& pixel) {
+Vec2d discPoint(const MapShape& shape, const Vec2d& pixel) {
   return {2 * pixel.x() / shape.width - 1, 1 - 2 * pixel.y() / shape.height};
 }
 
@@ -119,14 +116,14 @@ double angleAtRadius(MapKind kind, double r) {
   return kind == MapKind::Angular ? kPi * r : 2 * std::asin(std::min(r, 1.0));
 }
 
-Vec3d roundDirection(MapKind kind, const Vector2d& p) {
+Vec3d roundDirection(MapKind kind, const Vec2d& p) {
   const double r = p.norm();
   if (r == 0) return Vec3d::UnitZ();
   const double angle = angleAtRadius(kind, r);
   return {std::sin(angle) * p.x() / r, std::sin(angle) * p.y() / r, std::cos(angle)};
 }
 
-Rgb pixelAt(const Image& image, const Vector2d& pixel) {
+Rgb pixelAt(const Image& image, const Vec2d& pixel) {
   const int x = std::clamp(static_cast<int>(std::floor(pixel.x())), 0, image.width - 1);
   const int y = std::clamp(static_cast<int>(std::floor(pixel.y())), 0, image.height - 1);
   return image.at(x, y);
@@ -144,20 +141,20 @@ Rgb tap(const Image& image, const MapShape& shape, const CubeLayout& layout, int
     x %= shape.width;
     return image.at(x < 0 ? x + shape.width : x, y);
   }
-  const Vector2d centre(x + 0.5, y + 0.5);
+  const Vec2d centre(x + 0.5, y + 0.5);
   if (shape.kind == MapKind::Cube) {
-    const Vector2d p = pointInFace(layout, face, centre);
+    const Vec2d p = pointInFace(layout, face, centre);
     if (std::abs(p.x()) <= 1 && std::abs(p.y()) <= 1) return image.at(x, y);
     return pixelAt(image, pixelOf(shape, cubeVector(face, p.x(), p.y())));
   }
-  const Vector2d p = discPoint(shape, centre);
+  const Vec2d p = discPoint(shape, centre);
   if (p.squaredNorm() <= 1) return image.at(x, y);
   // Beyond the rim: the angular map goes on past −z and comes back on the other side; the ball's
   // does not, and its rim is repeated. A little further in, lest the pixel found be one whose
   // centre lies outside.
   const double inner = 1 - 1.5 / shape.width;
   const double r = p.norm();
-  Vector2d inside = p * (inner / r);
+  Vec2d inside = p * (inner / r);
   if (shape.kind == MapKind::Angular && r < 2) inside = -p / r * std::min(2 - r, inner);
   return pixelAt(image,
                  {0.5 * shape.width * (inside.x() + 1), 0.5 * shape.height * (1 - inside.y())});
@@ -198,7 +195,7 @@ std::optional<MapKind> guessKind(int width, int height) {
   return std::nullopt;
 }
 
-std::optional<Vec3d> directionOf(const MapShape& shape, const Vector2d& pixel) {
+std::optional<Vec3d> directionOf(const MapShape& shape, const Vec2d& pixel) {
   switch (shape.kind) {
     case MapKind::LatLong:
       return latLongDirection(shape, pixel);
@@ -206,18 +203,18 @@ std::optional<Vec3d> directionOf(const MapShape& shape, const Vector2d& pixel) {
       const CubeLayout layout = layoutOf(shape.width, shape.height);
       const int face = faceAt(layout, pixel);
       if (face < 0) return std::nullopt;
-      const Vector2d p = pointInFace(layout, face, pixel);
+      const Vec2d p = pointInFace(layout, face, pixel);
       return cubeVector(face, p.x(), p.y()).normalized();
     }
     default: {
-      const Vector2d p = discPoint(shape, pixel);
+      const Vec2d p = discPoint(shape, pixel);
       if (p.squaredNorm() > 1) return std::nullopt;
       return roundDirection(shape.kind, p);
     }
   }
 }
 
-Vector2d pixelOf(const MapShape& shape, const Vec3d& direction) {
+Vec2d pixelOf(const MapShape& shape, const Vec3d& direction) {
   assert(direction.squaredNorm() > 0);
   switch (shape.kind) {
     case MapKind::LatLong: {
@@ -230,9 +227,8 @@ Vector2d pixelOf(const MapShape& shape, const Vec3d& direction) {
       const double across = std::hypot(direction.x(), direction.y());
       const double angle = std::atan2(across, direction.z());
       const double r = shape.kind == MapKind::Angular ? angle / kPi : std::sin(0.5 * angle);
-      const Vector2d p = across > 0
-                             ? Vector2d(direction.x() * r / across, direction.y() * r / across)
-                             : Vector2d(r, 0);
+      const Vec2d p =
+          across > 0 ? Vec2d(direction.x() * r / across, direction.y() * r / across) : Vec2d(r, 0);
       return {0.5 * shape.width * (p.x() + 1), 0.5 * shape.height * (1 - p.y())};
     }
   }
@@ -243,7 +239,7 @@ Rgb sample(const Image& image, MapKind kind, const Vec3d& direction) {
   const CubeLayout layout =
       kind == MapKind::Cube ? layoutOf(image.width, image.height) : CubeLayout{};
   const int face = kind == MapKind::Cube ? facePointOf(direction).face : 0;
-  const Vector2d p = pixelOf(shape, direction) - Vector2d(0.5, 0.5);
+  const Vec2d p = pixelOf(shape, direction) - Vec2d(0.5, 0.5);
   const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
   const auto fx = static_cast<float>(p.x() - x), fy = static_cast<float>(p.y() - y);
   const Rgb top = tap(image, shape, layout, face, x, y) * (1 - fx) +

@@ -40,9 +40,9 @@ std::optional<MapKind> guessKind(int width, int height);
 
 /// The unit direction at continuous pixel coordinates; nothing outside of the map (the corners of
 /// an Angular map, the empty cells of a cross).
-std::optional<Vec3d> directionOf(const MapShape& shape, const Eigen::Vector2d& pixel);
+std::optional<Vec3d> directionOf(const MapShape& shape, const Vec2d& pixel);
 /// The continuous pixel coordinates of a direction of any length but zero.
-Eigen::Vector2d pixelOf(const MapShape& shape, const Vec3d& direction);
+Vec2d pixelOf(const MapShape& shape, const Vec3d& direction);
 
 /// Solid angle of every pixel (sr), row after row: that of the part of it which lies in the map.
 /// They sum to 4π. LatLong and Cube are closed forms; Angular and MirrorBall are line integrals

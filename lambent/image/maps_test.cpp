@@ -51,12 +51,12 @@ TEST(Maps, SolidAnglesAreThoseOfTheDirections) {
       for (int x = 0; x < shape.width; ++x) {
         double sum = 0;
         for (int k = 0; k < kGrid * kGrid; ++k) {
-          const Eigen::Vector2d at(x + (k % kGrid + 0.5) * kStep, y + (k / kGrid + 0.5) * kStep);
+          const Vec2d at(x + (k % kGrid + 0.5) * kStep, y + (k / kGrid + 0.5) * kStep);
           const double e = 1e-4;
-          const auto right = directionOf(shape, at + Eigen::Vector2d(e, 0));
-          const auto left = directionOf(shape, at - Eigen::Vector2d(e, 0));
-          const auto below = directionOf(shape, at + Eigen::Vector2d(0, e));
-          const auto above = directionOf(shape, at - Eigen::Vector2d(0, e));
+          const auto right = directionOf(shape, at + Vec2d(e, 0));
+          const auto left = directionOf(shape, at - Vec2d(e, 0));
+          const auto below = directionOf(shape, at + Vec2d(0, e));
+          const auto above = directionOf(shape, at - Vec2d(0, e));
           if (!right || !left || !below || !above) continue;
           sum += (*right - *left).cross(*below - *above).norm() / (4 * e * e) * kStep * kStep;
         }
@@ -72,7 +72,7 @@ TEST(Maps, PixelAndDirectionAreInverse) {
     Sequence sequence(7);
     for (int i = 0; i < 2000; ++i) {
       const Vec3d direction = randomDirection(sequence);
-      const Eigen::Vector2d pixel = pixelOf(shape, direction);
+      const Vec2d pixel = pixelOf(shape, direction);
       ASSERT_GE(pixel.minCoeff(), 0.0);
       ASSERT_LE(pixel.x(), shape.width);
       ASSERT_LE(pixel.y(), shape.height);
@@ -83,7 +83,7 @@ TEST(Maps, PixelAndDirectionAreInverse) {
     }
     for (int y = 0; y < shape.height; ++y) {
       for (int x = 0; x < shape.width; ++x) {
-        const Eigen::Vector2d centre(x + 0.5, y + 0.5);
+        const Vec2d centre(x + 0.5, y + 0.5);
         const std::optional<Vec3d> direction = directionOf(shape, centre);
         if (!direction) continue;
         EXPECT_NEAR(direction->norm(), 1.0, 1e-12);
@@ -95,9 +95,9 @@ TEST(Maps, PixelAndDirectionAreInverse) {
 
 TEST(Maps, LatLongConvention) {
   const MapShape shape{MapKind::LatLong, 8, 4};
-  EXPECT_LT((pixelOf(shape, {1, 0, 0}) - Eigen::Vector2d(4, 2)).norm(), 1e-12);
-  EXPECT_LT((pixelOf(shape, {0, 0, 1}) - Eigen::Vector2d(6, 2)).norm(), 1e-12);
-  EXPECT_LT((pixelOf(shape, {0, 0, -1}) - Eigen::Vector2d(2, 2)).norm(), 1e-12);
+  EXPECT_LT((pixelOf(shape, {1, 0, 0}) - Vec2d(4, 2)).norm(), 1e-12);
+  EXPECT_LT((pixelOf(shape, {0, 0, 1}) - Vec2d(6, 2)).norm(), 1e-12);
+  EXPECT_LT((pixelOf(shape, {0, 0, -1}) - Vec2d(2, 2)).norm(), 1e-12);
   EXPECT_NEAR(pixelOf(shape, {0, 1, 0}).y(), 0, 1e-12);
   EXPECT_NEAR(pixelOf(shape, {0, -1, 0}).y(), 4, 1e-12);
 }
@@ -105,11 +105,11 @@ TEST(Maps, LatLongConvention) {
 TEST(Maps, AngularConvention) {
   for (const MapKind kind : {MapKind::Angular, MapKind::MirrorBall}) {
     const MapShape shape{kind, 10, 10};
-    EXPECT_LT((pixelOf(shape, {0, 0, 1}) - Eigen::Vector2d(5, 5)).norm(), 1e-12);
+    EXPECT_LT((pixelOf(shape, {0, 0, 1}) - Vec2d(5, 5)).norm(), 1e-12);
     const double r = kind == MapKind::Angular ? 0.5 : std::sqrt(0.5);
-    EXPECT_LT((pixelOf(shape, {1, 0, 0}) - Eigen::Vector2d(5 + 5 * r, 5)).norm(), 1e-12);
-    EXPECT_LT((pixelOf(shape, {0, 1, 0}) - Eigen::Vector2d(5, 5 - 5 * r)).norm(), 1e-12);
-    EXPECT_NEAR((pixelOf(shape, {0, 0, -1}) - Eigen::Vector2d(5, 5)).norm(), 5, 1e-12);
+    EXPECT_LT((pixelOf(shape, {1, 0, 0}) - Vec2d(5 + 5 * r, 5)).norm(), 1e-12);
+    EXPECT_LT((pixelOf(shape, {0, 1, 0}) - Vec2d(5, 5 - 5 * r)).norm(), 1e-12);
+    EXPECT_NEAR((pixelOf(shape, {0, 0, -1}) - Vec2d(5, 5)).norm(), 5, 1e-12);
     EXPECT_FALSE(directionOf(shape, {0.2, 0.2}));
   }
 }

@@ -19,7 +19,7 @@ Image resample(const Image& source, MapKind sourceKind, const MapShape& target) 
       Rgb sum = Rgb::Zero();
       int count = 0;
       for (int k = 0; k < grid * grid; ++k) {
-        const Eigen::Vector2d at(x + (k % grid + 0.5) / grid, y + (k / grid + 0.5) / grid);
+        const Vec2d at(x + (k % grid + 0.5) / grid, y + (k / grid + 0.5) / grid);
         if (const std::optional<Vec3d> direction = directionOf(target, at)) {
           sum += sample(source, sourceKind, *direction);
           ++count;

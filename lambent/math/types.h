@@ -14,6 +14,7 @@ using Mat4 = Eigen::Matrix<float, 4, 4, Eigen::DontAlign>;
 /// Linear RGB, Rec. 709 primaries: a radiance (W m⁻² sr⁻¹ per channel), or a reflectance in [0, 1].
 using Rgb = Eigen::Array3f;
 
+using Vec2d = Eigen::Vector2d;
 using Vec3d = Eigen::Vector3d;
 using Mat3d = Eigen::Matrix3d;
 

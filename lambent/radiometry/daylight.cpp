@@ -85,7 +85,7 @@ Xyzv daylightXyzv(double x, double y, double luminance) {
         weights.bottomRows<3>()(std::array{0, 2}, Eigen::all) * basis);
   }();
   const DaylightCoefficients c = daylightCoefficients(x, y);
-  const Eigen::Vector2d yv = ofBasis * Vec3d(1, c.m1, c.m2);
+  const Vec2d yv = ofBasis * Vec3d(1, c.m1, c.m2);
   const double scotopic = yv[0] > 0 ? std::max(yv[1] / yv[0], 0.0) : 0;
   const double divisor = std::max(y, 1e-6);
   return {luminance * x / divisor, luminance, luminance * (1 - x - y) / divisor,

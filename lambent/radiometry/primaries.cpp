@@ -12,9 +12,7 @@
 namespace lambent::radiometry {
 namespace {
 
-using Eigen::Vector2d;
-
-const Vector2d kD65{.3127, .3290}, kD50{.3457, .3585}, kAcesWhite{.32168, .33767};
+const Vec2d kD65{.3127, .3290}, kD50{.3457, .3585}, kAcesWhite{.32168, .33767};
 
 const Primaries kRec709{{.64, .33}, {.30, .60}, {.15, .06}, kD65};
 const Primaries kRec2020{{.708, .292}, {.170, .797}, {.131, .046}, kD65};
@@ -48,7 +46,7 @@ const std::array<std::pair<std::string_view, const Primaries*>, 18> kNames{
      {"srgb", &kRec709},
      {"xyz", &kXyz}}};
 
-Vec3d xyzOf(const Vector2d& xy) {
+Vec3d xyzOf(const Vec2d& xy) {
   return {xy.x() / xy.y(), 1, (1 - xy.x() - xy.y()) / xy.y()};
 }
 
@@ -56,13 +54,13 @@ Vec3d xyzOf(const Vector2d& xy) {
 Mat3d xyzFrom(const Primaries& p) {
   Mat3d directions;
   int column = 0;
-  for (const Vector2d* xy : {&p.red, &p.green, &p.blue})
+  for (const Vec2d* xy : {&p.red, &p.green, &p.blue})
     directions.col(column++) << xy->x(), xy->y(), 1 - xy->x() - xy->y();
   const Vec3d scale = directions.inverse() * xyzOf(p.white);
   return directions * scale.asDiagonal();
 }
 
-Mat3d d65FromWhite(const Vector2d& white) {
+Mat3d d65FromWhite(const Vec2d& white) {
   Mat3d cones;
   cones << .8951, .2664, -.1614, -.7502, 1.7135, .0367, .0389, -.0685, 1.0296;
   const Vec3d ratio = (cones * xyzOf(kD65)).cwiseQuotient(cones * xyzOf(white));
@@ -102,7 +100,7 @@ bool isNear(const Primaries& a, const Primaries& b, double tolerance) {
 
 std::optional<Mat3d> rec709From(const Primaries& primaries) {
   if (!isFinite(primaries) || primaries.white.y() < 1e-3) return std::nullopt;
-  const Vector2d a = primaries.green - primaries.red, b = primaries.blue - primaries.red;
+  const Vec2d a = primaries.green - primaries.red, b = primaries.blue - primaries.red;
   if (std::abs(a.x() * b.y() - a.y() * b.x()) < 1e-4) return std::nullopt;
   const Mat3d rgbFromXyz = xyzFrom(kRec709).inverse();
   if (isNear(primaries, kXyz)) return rgbFromXyz;

@@ -10,7 +10,7 @@ namespace lambent::radiometry {
 
 /// CIE 1931 x, y of what (1,0,0), (0,1,0), (0,0,1) and (1,1,1) stand for.
 struct Primaries {
-  Eigen::Vector2d red, green, blue, white;
+  Vec2d red, green, blue, white;
 };
 
 /// ITU-R BT.709, with D65.

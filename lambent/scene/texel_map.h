@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kNobody = 0xffffffffu;
 template <class Visit>
 void visitTexels(const Mesh& mesh, const Triangle& triangle, int width, int height,
                  const Visit& visit) {
-  using Point = Eigen::Vector2d;
+  using Point = Vec2d;
   const auto cross = [](const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); };
   Point p[3];
   for (int k = 0; k < 3; ++k) {

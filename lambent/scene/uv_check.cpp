@@ -16,11 +16,10 @@ constexpr double kInside = 1.0 / 64.0;
 /// How far inside its triangle the place with these barycentric coordinates lies, in texels.
 double depthInside(const Mesh& mesh, const Triangle& triangle, int width, int height, double u,
                    double v) {
-  Eigen::Vector2d p[3];
+  Vec2d p[3];
   for (int k = 0; k < 3; ++k)
-    p[k] =
-        texelUvsOf(mesh)[triangle[k]].cast<double>().cwiseProduct(Eigen::Vector2d(width, height));
-  const Eigen::Vector2d e = p[1] - p[0], f = p[2] - p[0];
+    p[k] = texelUvsOf(mesh)[triangle[k]].cast<double>().cwiseProduct(Vec2d(width, height));
+  const Vec2d e = p[1] - p[0], f = p[2] - p[0];
   const double area = std::abs(e.x() * f.y() - e.y() * f.x());
   // A barycentric coordinate is 1 at its corner, and that far from the opposite edge.
   return area * std::min({(1.0 - u - v) / (p[2] - p[1]).norm(), u / f.norm(), v / e.norm()});

@@ -22,8 +22,6 @@
 namespace lambent::scene_io {
 namespace {
 
-using Vec2d = Eigen::Vector2d;
-
 /// Corners from which a grid is worth making.
 constexpr std::size_t kGridCorners = 48;
 /// Corners and cells that are looked at before the work is broken off, for a polygon of `corners`.

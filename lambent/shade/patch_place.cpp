@@ -36,8 +36,8 @@ PatchGradient patchGradient(const transfer::Patch& patch, const scene::Mesh& mes
   const double area = n.squaredNorm();
   if (!(area > 0.0)) return {};
   const Vec3d along1 = e2.cross(n) / area, along2 = n.cross(e1) / area;
-  const Eigen::Vector2d d1 = (mesh.uvs[j] - mesh.uvs[i]).cast<double>();
-  const Eigen::Vector2d d2 = (mesh.uvs[k] - mesh.uvs[i]).cast<double>();
+  const Vec2d d1 = (mesh.uvs[j] - mesh.uvs[i]).cast<double>();
+  const Vec2d d2 = (mesh.uvs[k] - mesh.uvs[i]).cast<double>();
   const Vec3d u = d1.x() * along1 + d2.x() * along2, v = d1.y() * along1 + d2.y() * along2;
   PatchGradient gradient{(double(patch.tiles().x()) * u).cast<float>(),
                          (-double(patch.tiles().y()) * v).cast<float>()};

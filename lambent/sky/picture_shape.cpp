@@ -13,8 +13,6 @@ namespace lambent::sky {
 
 namespace {
 
-using Eigen::Vector2d;
-
 constexpr int kLeastSide = 8;
 
 image::MapShape mapOf(const PictureShape& shape) {
@@ -23,18 +21,18 @@ image::MapShape mapOf(const PictureShape& shape) {
 }
 
 /// The circle of a fisheye as the unit disc, y up.
-Vector2d inDisc(const PictureShape& shape, const Vector2d& pixel) {
+Vec2d inDisc(const PictureShape& shape, const Vec2d& pixel) {
   return {2 * pixel.x() / shape.width - 1, 1 - 2 * pixel.y() / shape.height};
 }
 
 /// Also beyond the rim, where it looks below the horizon.
-Vec3d fisheyeDirection(const Vector2d& p) {
+Vec3d fisheyeDirection(const Vec2d& p) {
   const double r = p.norm(), angle = r * kPi / 2;
   const double scale = r > 0 ? std::sin(angle) / r : kPi / 2;
   return {-p.x() * scale, std::cos(angle), -p.y() * scale};
 }
 
-Vec3d cameraDirection(const PictureShape& shape, const Vector2d& pixel) {
+Vec3d cameraDirection(const PictureShape& shape, const Vec2d& pixel) {
   const double sinB = std::sin(shape.lookBearing), cosB = std::cos(shape.lookBearing);
   const double sinE = std::sin(shape.lookElevation), cosE = std::cos(shape.lookElevation);
   const Vec3d forward(sinB * cosE, sinE, -cosB * cosE), right(cosB, 0, sinB),
@@ -94,10 +92,10 @@ Status checkShape(const PictureShape& shape) {
   return Status::ok();
 }
 
-std::optional<Vec3d> directionOf(const PictureShape& shape, const Vector2d& pixel) {
+std::optional<Vec3d> directionOf(const PictureShape& shape, const Vec2d& pixel) {
   switch (shape.map) {
     case PictureMap::Fisheye: {
-      const Vector2d p = inDisc(shape, pixel);
+      const Vec2d p = inDisc(shape, pixel);
       if (p.squaredNorm() > 1) return std::nullopt;
       return fisheyeDirection(p);
     }
@@ -109,13 +107,13 @@ std::optional<Vec3d> directionOf(const PictureShape& shape, const Vector2d& pixe
 }
 
 std::optional<Vec3d> directionOfPixel(const PictureShape& shape, int x, int y) {
-  const Vector2d centre(x + 0.5, y + 0.5);
+  const Vec2d centre(x + 0.5, y + 0.5);
   if (shape.map != PictureMap::Fisheye) return directionOf(shape, centre);
-  Vector2d p = inDisc(shape, centre);
+  Vec2d p = inDisc(shape, centre);
   if (p.squaredNorm() > 1) {
     const double half = 1.0 / shape.width;
-    const Vector2d nearest(std::max(std::abs(p.x()) - half, 0.0),
-                           std::max(std::abs(p.y()) - half, 0.0));
+    const Vec2d nearest(std::max(std::abs(p.x()) - half, 0.0),
+                        std::max(std::abs(p.y()) - half, 0.0));
     if (nearest.squaredNorm() >= 1) return std::nullopt;
     p *= (1 - 1e-9) / p.norm();  // still above a level horizon
   }
@@ -126,7 +124,7 @@ std::vector<Vec3d> outlineOf(const PictureShape& shape, int x, int y, int perSid
   // Just inside, where the border is that of a face whose neighbour in the picture is another.
   constexpr double kInside = 1 - 1e-9;
   const auto at = [&](double a, double b) -> Vec3d {
-    const Vector2d pixel(x + 0.5 + a * kInside, y + 0.5 + b * kInside);
+    const Vec2d pixel(x + 0.5 + a * kInside, y + 0.5 + b * kInside);
     if (shape.map == PictureMap::Fisheye) return fisheyeDirection(inDisc(shape, pixel));
     return directionOf(shape, pixel).value_or(Vec3d::UnitY());
   };

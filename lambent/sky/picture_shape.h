@@ -35,7 +35,7 @@ Status checkShape(const PictureShape& shape);
 
 /// The unit direction in the world; nothing outside of the map (corners of a fisheye, empty cells of
 /// a cross).
-std::optional<Vec3d> directionOf(const PictureShape& shape, const Eigen::Vector2d& pixel);
+std::optional<Vec3d> directionOf(const PictureShape& shape, const Vec2d& pixel);
 /// Of the centre of a pixel. A pixel of which any part lies in the map looks somewhere: of one whose
 /// centre is just outside of a fisheye's rim it is the nearest point of the rim.
 std::optional<Vec3d> directionOfPixel(const PictureShape& shape, int x, int y);

@@ -21,7 +21,7 @@ namespace lambent::sky {
 
 namespace {
 
-using Point2 = Eigen::Vector2d;
+using Point2 = Vec2d;
 
 /// F(ρ)/ρ² for ρ² < 1.
 double averageWithin(double rho2, double exponent) {

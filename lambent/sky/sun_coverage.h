@@ -36,7 +36,7 @@ class SunCoverage {
   void densities(const Vec3d& direction, std::span<double> densities) const;
 
  private:
-  using Point = Eigen::Vector2d;
+  using Point = Vec2d;
 
   Point inPlane(const Vec3d& direction) const;
   /// Of the part of a polygon above the horizon, Σ ∮ F dφ.

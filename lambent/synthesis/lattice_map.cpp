@@ -29,7 +29,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using Vector = Eigen::VectorXcd;
-using Vec2d = Eigen::Vector2d;
 
 /// Looks at the finished map alone.
 void countContinued(const Manifold& m, const CrossField& field, const LatticeCorners& corners,

@@ -18,8 +18,6 @@
 namespace lambent::synthesis {
 namespace {
 
-using Vec2d = Eigen::Vector2d;
-
 constexpr int kMostPlaces = 64;      ///< a side of the grid that is compared
 constexpr int kFinest = 16;          ///< cells along a side at most
 constexpr double kTranslated = 0.8;  ///< correlation from which a translation counts

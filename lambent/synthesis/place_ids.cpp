@@ -119,7 +119,6 @@ Result<transfer::IdMap> placeIds(const atlas::Atlas& atlas, const LatticeMap& la
   ids.width = ids.height = size;
   ids.ids.resize(2 * map.size());
   work::parallelRanges(map.size(), 1, [&](std::size_t begin, std::size_t end) {
-    using Vec2d = Eigen::Vector2d;
     for (std::size_t texel = begin; texel < end; ++texel) {
       const std::uint32_t from = nearest[texel], t = map.triangle[from];
       const Vec2d q[3] = {lattice.places[3 * t].cast<double>(),

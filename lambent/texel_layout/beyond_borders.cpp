@@ -16,7 +16,6 @@ namespace {
 
 using atlas::kNoTriangle;
 using atlas::WeldedSurface;
-using Vec2d = Eigen::Vector2d;
 
 /// Shading normals this close belong to one smooth surface (cosine).
 constexpr float kSmooth = 0.995f;

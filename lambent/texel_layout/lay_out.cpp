@@ -276,8 +276,8 @@ class Layout {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       if (!l.charted.surface.hasArea(t)) continue;
       const auto [i, j, k] = mesh.triangles[t];
-      const Eigen::Vector2d e = (mesh.uvs[j] - mesh.uvs[i]).cast<double>() * l.size;
-      const Eigen::Vector2d f = (mesh.uvs[k] - mesh.uvs[i]).cast<double>() * l.size;
+      const Vec2d e = (mesh.uvs[j] - mesh.uvs[i]).cast<double>() * l.size;
+      const Vec2d f = (mesh.uvs[k] - mesh.uvs[i]).cast<double>() * l.size;
       flat[l.packed.chartOfTriangle[t]] += 0.5 * std::abs(e.x() * f.y() - e.y() * f.x());
     }
     double sum = 0.0;

@@ -32,9 +32,9 @@ struct CornerHash {
 };
 
 double areaOfUvs(const scene::Mesh& mesh, const scene::Triangle& t) {
-  const Eigen::Vector2d a = scene::texelUvsOf(mesh)[t[0]].cast<double>();
-  const Eigen::Vector2d e = scene::texelUvsOf(mesh)[t[1]].cast<double>() - a,
-                        f = scene::texelUvsOf(mesh)[t[2]].cast<double>() - a;
+  const Vec2d a = scene::texelUvsOf(mesh)[t[0]].cast<double>();
+  const Vec2d e = scene::texelUvsOf(mesh)[t[1]].cast<double>() - a,
+              f = scene::texelUvsOf(mesh)[t[2]].cast<double>() - a;
   return std::abs(e.x() * f.y() - e.y() * f.x());
 }
 
