@@ -16,6 +16,7 @@
 #include "lambent/synthesis/cross_field.h"
 #include "lambent/synthesis/lattice_map.h"
 #include "lambent/synthesis/meso_mesh.h"
+#include "lambent/synthesis/patch_pieces.h"
 #include "lambent/synthesis/place_ids.h"
 #include "lambent/synthesis/synthesize.h"
 #include "lambent/synthesis/tangent_field.h"
@@ -142,6 +143,7 @@ struct Spreader {
   Findings& findings;
   Spread& out;
   std::optional<synthesis::Appearance> appearance;  ///< made once for all meshes
+  synthesis::PatchPieces pieces;                    ///< with it
   std::optional<synthesis::PatchSymmetry> symmetry;
 
   Status byOwnUvs(std::uint32_t index, SpreadReport& report, Placed& placed,
@@ -277,15 +279,20 @@ struct Spreader {
     auto meso = synthesis::mesoMesh(mesh, *field, mesoOptions, progress);
     if (!meso) return named(meso.error(), mesh, index);
 
-    if (!appearance)
-      appearance = staged(progress, "appearance",
-                          [&] { return synthesis::appearanceOf(transfer::decode(rtt)); });
+    if (!appearance) {
+      appearance = staged(progress, "appearance", [&] {
+        const auto responses = transfer::decode(rtt);
+        pieces = synthesis::piecesOf(synthesis::lookOf(responses));
+        return synthesis::appearanceOf(responses);
+      });
+    }
     synthesis::SynthesisOptions synthesisOptions;
     synthesisOptions.patchSize = patch;
     synthesisOptions.randomness =
         options.randomness.value_or(0.5f * (1.0f - float(synthesis::regularityOf(*appearance))));
     report.randomness = synthesisOptions.randomness;
     synthesisOptions.seed = options.seed;
+    synthesisOptions.pieces = &pieces;
     announce(progress, "texture synthesis");
     auto coordinates = synthesis::synthesize(*meso, *appearance, synthesisOptions, progress);
     if (!coordinates) return named(coordinates.error(), mesh, index);
@@ -341,7 +348,7 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
   WithFindings<Spread> result;
   Spread& spread = result.value;
   Findings& findings = result.findings;
-  Spreader spreader{scene, rtt, options, progress, findings, spread, {}, {}};
+  Spreader spreader{scene, rtt, options, progress, findings, spread, {}, {}, {}};
   transport::Placement placement;
   std::vector<Placed> all;
   for (const std::uint32_t m : *chosen) {

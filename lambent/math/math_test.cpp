@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "lambent/math/directions.h"
+#include "lambent/math/min_cut.h"
 #include "lambent/math/quadrature.h"
 #include "lambent/math/random.h"
 #include "lambent/math/sequences.h"
@@ -223,6 +226,78 @@ TEST(UnionFind, ARootIsTheSmallestOfItsSet) {
   sets.join(5, 3), sets.join(4, 2), sets.join(3, 4);
   for (const std::uint32_t i : {2u, 3u, 4u, 5u}) EXPECT_EQ(sets.rootOf(i), 2u);
   for (const std::uint32_t i : {0u, 1u}) EXPECT_EQ(sets.rootOf(i), i);
+}
+
+/// What a choice of sides costs, by the definition.
+double costOf(std::uint32_t firsts, const std::vector<std::array<double, 2>>& nodes,
+              const std::vector<std::array<std::uint32_t, 2>>& links,
+              const std::vector<std::array<double, 2>>& costs) {
+  double sum = 0.0;
+  const auto isFirst = [&](std::uint32_t v) { return (firsts >> v & 1) != 0; };
+  for (std::uint32_t v = 0; v < nodes.size(); ++v) sum += nodes[v][isFirst(v) ? 0 : 1];
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const bool a = isFirst(links[k][0]), b = isFirst(links[k][1]);
+    if (a != b) sum += costs[k][a ? 0 : 1];
+  }
+  return sum;
+}
+
+TEST(MinCut, FindsTheLeastOfAllWaysToPartAGraph) {
+  constexpr std::uint32_t kNodes = 9;
+  for (std::uint64_t trial = 0; trial < 200; ++trial) {
+    Random random(7, trial);
+    std::vector<std::array<double, 2>> nodes, costs;
+    std::vector<std::array<std::uint32_t, 2>> links;
+    MinCut cut(kNodes);
+    for (std::uint32_t v = 0; v < kNodes; ++v) {
+      nodes.push_back({random.uniformDouble(), random.uniformDouble()});
+      // In two parts: what is added adds up.
+      cut.addNode(v, nodes[v][0] - 0.1 * nodes[v][0], 0.0);
+      cut.addNode(v, 0.1 * nodes[v][0], nodes[v][1]);
+    }
+    for (std::uint32_t k = 0; k < 16; ++k) {
+      const std::uint32_t a = random.below(kNodes), b = random.below(kNodes);
+      if (a == b) continue;
+      links.push_back({a, b});
+      costs.push_back({0.5 * random.uniformDouble(), k % 4 == 0 ? 0.0 : random.uniformDouble()});
+      cut.addLink(a, b, costs.back()[0], costs.back()[1]);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t firsts = 0; firsts < 1u << kNodes; ++firsts)
+      least = std::min(least, costOf(firsts, nodes, links, costs));
+    ASSERT_NEAR(cut.solve(), least, 1e-12);
+    std::uint32_t chosen = 0;
+    for (std::uint32_t v = 0; v < kNodes; ++v) chosen |= std::uint32_t(cut.isOnFirst(v)) << v;
+    ASSERT_NEAR(costOf(chosen, nodes, links, costs), least, 1e-12);
+  }
+}
+
+TEST(MinCut, RunsThroughTheGapOfAWall) {
+  // A grid with a wall of dear links and one column of cheap ones; its left wants the first side.
+  constexpr std::uint32_t kWide = 60, kHigh = 40, kGap = 37;
+  MinCut cut(kWide * kHigh);
+  for (std::uint32_t y = 0; y < kHigh; ++y)
+    for (std::uint32_t x = 0; x < kWide; ++x) {
+      const std::uint32_t v = y * kWide + x;
+      if (x == 0) cut.addNode(v, 0.0, 1000.0);
+      if (x + 1 == kWide) cut.addNode(v, 1000.0, 0.0);
+      const double cost = x == kGap ? 0.25 : 1.0;
+      if (x + 1 < kWide) cut.addLink(v, v + 1, cost, cost);
+      if (y + 1 < kHigh) cut.addLink(v, v + kWide, 1.0, 1.0);
+    }
+  EXPECT_NEAR(cut.solve(), 0.25 * kHigh, 1e-9);
+  for (std::uint32_t v = 0; v < kWide * kHigh; ++v)
+    ASSERT_EQ(cut.isOnFirst(v), v % kWide <= kGap) << v;
+}
+
+TEST(MinCut, WhatIsNoCostCountsAsNone) {
+  MinCut cut(2);
+  cut.addNode(0, std::numeric_limits<double>::quiet_NaN(), 2.0);
+  cut.addNode(1, 1.0, -3.0);
+  cut.addLink(0, 1, std::numeric_limits<double>::quiet_NaN(), -1.0);
+  EXPECT_EQ(cut.solve(), 0.0);
+  EXPECT_TRUE(cut.isOnFirst(0));
+  EXPECT_FALSE(cut.isOnFirst(1));
 }
 
 }  // namespace

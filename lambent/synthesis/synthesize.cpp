@@ -3,8 +3,7 @@
 // - turk2001texture (§5): from coarse to fine over nested levels of vertices on the surface.
 // - tong2002synthesis (§4): k-coherence, which makes it fast (correction.cpp, similar_places.cpp).
 // - lefebvre2005parallel, lefebvre2006appearance: coordinates are what is synthesised, upsampled by
-//   continuation and corrected in parallel; randomness enters at the coarse end
-//   (coarse_layout.cpp).
+//   continuation and corrected in parallel; randomness enters at the coarse end (scatter.cpp).
 //
 // Where we deviate: levels whose vertices lie further apart than a quarter of the patch cannot tell
 // its places apart, so synthesis begins at the first that can. Patches carry no detail coarser than
@@ -14,19 +13,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "lambent/math/random.h"
 #include "lambent/synthesis/coarse_layout.h"
 #include "lambent/synthesis/correction.h"
 #include "lambent/synthesis/meso_offsets.h"
+#include "lambent/synthesis/scatter.h"
 #include "lambent/synthesis/similar_places.h"
 #include "lambent/work/parallel_for.h"
 
 namespace lambent::synthesis {
 namespace {
 
-constexpr float kVerticesAcross = 4.0f;  ///< least number along a period
+constexpr float kVerticesAcross = 4.0f;       ///< least number along a period
+constexpr std::uint32_t kNextInACut = 6;      ///< neighbours of a vertex there
+constexpr float kVerticesAcrossACut = 20.0f;  ///< along a period, where pieces are cut
 
 /// New vertices of a level continue what their nearest vertex of the coarser level has.
 void inherit(const MesoMesh& mesh, std::size_t level, std::span<const Vec2> offsets,
@@ -103,20 +106,42 @@ Result<std::vector<Vec2>> synthesize(const MesoMesh& mesh, const Appearance& app
                             number(1.01 * largest) + " m");
   }
 
-  std::vector<Vec2> q;
-  for (std::size_t level = start; level < mesh.levels.size(); ++level) {
-    const std::vector<Vec2> offsets = offsetsOf(mesh, level, options.patchSize);
-    const PatchLevel patch(appearance, options.patchSize, mesh.spacing(level), options.candidates);
-    if (level == start) {
-      q = coarseLayout(mesh, level, offsets, patch,
-                       {options.patchSize, options.randomness, options.seed});
-      for (Vec2& place : q) place = intoPatch(place);
-    } else {
+  std::vector<Vec2> offsets = offsetsOf(mesh, start, options.patchSize);
+  std::vector<Vec2> q = coarseLayout(MesoGraph(mesh, start, offsets), options.seed);
+  std::size_t level = start;
+  const auto patchAt = [&](std::size_t l) {
+    return PatchLevel(appearance, options.patchSize, mesh.spacing(l), options.candidates);
+  };
+  std::optional<PatchLevel> patch(patchAt(level));
+  if (options.randomness > 0.0f) {
+    // Pieces are cut where their outlines can be seen.
+    while (level + 1 < mesh.levels.size() &&
+           mesh.spacing(level) > options.patchSize.minCoeff() / kVerticesAcrossACut) {
+      offsets = offsetsOf(mesh, ++level, options.patchSize);
       inherit(mesh, level, offsets, options, q);
     }
-    const Correction correction(mesh, level, offsets, patch, options.patchSize);
+    const PatchLevel coarse = std::move(*patch);
+    patch.emplace(patchAt(level));
+    const Status scattered =
+        scatter(mesh, level, MesoGraph(mesh, level, offsets, kNextInACut), *patch, coarse,
+                {options.patchSize, options.randomness, options.seed, options.pieces}, progress, q);
+    if (!scattered) return scattered.error();
+  }
+  for (Vec2& place : q) place = intoPatch(place);
+  const std::size_t first = level;
+  const bool goesRound = options.randomness > 0.0f && options.pieces && options.pieces->leaveRoom();
+  for (;; ++level) {
+    if (level > first) {
+      offsets = offsetsOf(mesh, level, options.patchSize);
+      patch.emplace(patchAt(level));
+      inherit(mesh, level, offsets, options, q);
+    }
+    const Correction correction(mesh, level, offsets, *patch, options.patchSize);
     // What the coarsest levels leave torn, finer ones can only trim; and passes there cost little.
-    const int passes = options.passes * std::max(1, 4 >> std::min(level - start, std::size_t(2)));
+    // Cuts that go round pieces are as they should be: finer levels trim them alone.
+    const int often =
+        goesRound ? int(level > first) : std::max(1, 4 >> std::min(level - first, std::size_t(2)));
+    const int passes = options.passes * often;
     for (int pass = 0; pass < passes; ++pass) {
       if (progress &&
           !progress({"texture synthesis", level - start, mesh.levels.size() - start, "levels"})) {
@@ -124,6 +149,7 @@ Result<std::vector<Vec2>> synthesize(const MesoMesh& mesh, const Appearance& app
       }
       correction.pass(q);
     }
+    if (level + 1 == mesh.levels.size()) break;
   }
   return q;
 }

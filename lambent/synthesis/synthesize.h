@@ -9,6 +9,7 @@
 #include "lambent/report/result.h"
 #include "lambent/synthesis/appearance.h"
 #include "lambent/synthesis/meso_mesh.h"
+#include "lambent/synthesis/patch_pieces.h"
 
 namespace lambent::synthesis {
 
@@ -21,6 +22,7 @@ struct SynthesisOptions {
   /// those that look alike: the more random, the less alike.
   float randomness = 0.5f;
   std::uint64_t seed = 0;
+  const PatchPieces* pieces = nullptr;  ///< of the patch, to be kept whole
 };
 
 /// The place q of the patch at every vertex of the meso-mesh, as a fraction of its period, in

@@ -8,6 +8,8 @@
 
 #include "lambent/math/random.h"
 #include "lambent/scene/shapes.h"
+#include "lambent/synthesis/meso_offsets.h"
+#include "lambent/synthesis/similar_places.h"
 #include "lambent/synthesis/synthesis_quality.h"
 #include "lambent/synthesis/test_patches.h"
 #include "lambent/work/thread_limit.h"
@@ -141,6 +143,39 @@ TEST(Synthesize, RandomnessBreaksTheRepetition) {
   };
   EXPECT_EQ(repetition(0.0f), 1.0);
   EXPECT_LT(repetition(0.5f), 0.2);
+}
+
+TEST(Synthesize, PebblesWithRoomBetweenThemStayWhole) {
+  const MesoMesh mesh = mesoOf(scene::icosphere(1.0f, 4), 60000);
+  const transfer::SimulatedRtt rtt = patchOf(pebblesAlbedo, 48);
+  const PatchPieces pieces = piecesOf(lookOf(rtt));
+  ASSERT_EQ(pieces.areas.size(), 12u);
+  ASSERT_TRUE(pieces.leaveRoom());
+  const Appearance appearance = appearanceOf(rtt, 4);
+  SynthesisOptions options;
+  options.patchSize = Vec2(0.5f, 0.5f);
+  options.randomness = 0.5f;
+  // Of the ways within pebbles, how many lead from a part of one to a part of another.
+  const auto parted = [&](const PatchPieces* kept) {
+    options.pieces = kept;
+    const std::vector<Vec2> q = synthesized(mesh, appearance, options);
+    const std::size_t finest = mesh.levels.size() - 1;
+    const std::vector<Vec2> offsets = offsetsOf(mesh, finest, options.patchSize);
+    std::size_t within = 0, parts = 0;
+    for (std::uint32_t v = 0; v < q.size(); ++v) {
+      std::size_t e = mesh.levels[finest].begin[v];
+      for (const std::uint32_t j : mesh.neighbours(finest, v)) {
+        const Vec2& offset = offsets[e++];
+        if (pieces.at(q[v]) < 0 || pieces.at(q[v] + offset) != pieces.at(q[v])) continue;
+        ++within;
+        parts += wrapped(q[j] - q[v] - offset).norm() > 0.05f;
+      }
+    }
+    return double(parts) / double(within);
+  };
+  const double round = parted(&pieces), through = parted(nullptr);
+  EXPECT_LT(round, 0.01);
+  EXPECT_LT(round, 0.3 * through);
 }
 
 TEST(Synthesize, OpenSurfacesPartsAndTinyMeshesWork) {

@@ -38,6 +38,20 @@ inline Rgb stuccoAlbedo(float u, float v) {
   return Rgb::Constant(std::clamp(2.5f * (sum - 0.25f), 0.0f, 1.0f));
 }
 
+/// Pebbles of a few greys on dark ground, wide apart, over a period.
+inline Rgb pebblesAlbedo(float u, float v) {
+  constexpr int kPebbles = 12;
+  for (int k = 0; k < kPebbles; ++k) {
+    // Every other row is shifted, and each pebble a little out of line.
+    math::Random random(17, std::uint64_t(k));
+    const float x = (float(k % 3) + 0.5f * float(k / 3 % 2) + 0.2f * random.uniform()) / 3.0f;
+    const float y = (float(k / 3) + 0.2f * random.uniform()) / 4.0f;
+    const float dx = u - x - std::round(u - x), dy = v - y - std::round(v - y);
+    if (dx * dx + dy * dy < 0.09f * 0.09f) return Rgb::Constant(0.5f + 0.4f * random.uniform());
+  }
+  return Rgb::Constant(0.1f);
+}
+
 /// A patch that responds to the mean light by its albedo and to band 1 by a fraction of it, more so
 /// seen from above.
 template <class Albedo>
