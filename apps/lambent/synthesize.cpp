@@ -16,7 +16,10 @@
 #include "lambent/asset/asset.h"
 #include "lambent/asset/rtt_file.h"
 #include "lambent/bi_scale/spread_patch.h"
+#include "lambent/file/atomic_file.h"
+#include "lambent/file/budget.h"
 #include "lambent/meso/effective_albedo.h"
+#include "lambent/scene_io/texture.h"
 #include "lambent/transfer/encode.h"
 #include "lambent/transfer/names.h"
 
@@ -32,8 +35,11 @@ struct SynthesizeRequest {
   std::optional<Size> tiles;
   bi_scale::SpreadOptions options;
   std::optional<Vec3> direction;
+  std::string tint;  ///< kOwnTint or a picture; empty: none
   bool preview = false;
 };
+
+constexpr std::string_view kOwnTint = "own";
 
 constexpr std::string_view kSynthesizeExamples = R"(Examples:
   lambent rtt weave -o weave.rtt
@@ -48,6 +54,8 @@ constexpr std::string_view kSynthesizeExamples = R"(Examples:
       The patch's +x follows +z; a picture of the charts and of where the patch stands.
   lambent synthesize vase.glb --rtt flower.rtt -o vase2.glb --map uv --tiles 8x4
       No synthesis: the vase's own UVs repeat the patch.
+  lambent synthesize jumper.glb --rtt knit.rtt -o jumper2.glb --tint own
+      The jumper's own texture and vertex colours dye the wool.
   lambent render bunny.glb --light sky.exr -o a.png --macro off
       What the macro-scale brings: without it the bunny glows.
 )";
@@ -176,6 +184,26 @@ std::size_t makeWhole(scene::Scene& scene) {
   return count;
 }
 
+/// The file of a --tint that is one.
+std::filesystem::path tintFile(const SynthesizeRequest& arguments) {
+  return arguments.tint == kOwnTint ? std::string() : arguments.tint;
+}
+
+/// The picture of a --tint becomes one of the scene's.
+Result<bi_scale::Tint> tintOf(const SynthesizeRequest& arguments, scene::Scene& scene) {
+  if (arguments.tint.empty()) return bi_scale::Tint(bi_scale::NoTint{});
+  if (arguments.tint == kOwnTint) return bi_scale::Tint(bi_scale::OwnTint{});
+  const auto bytes = file::readWhole(arguments.tint);
+  if (!bytes) return bytes.error();
+  file::Budget budget(arguments.scene.reading.memoryLimit);
+  budget.addFile(bytes->size());
+  auto picture = scene_io::decodeTexture(*bytes, arguments.tint, budget);
+  if (!picture) return picture.error();
+  picture->name = tintFile(arguments).stem().string();
+  scene.textures.push_back(std::move(*picture));
+  return bi_scale::Tint(bi_scale::PictureTint{int(scene.textures.size()) - 1});
+}
+
 Status run(SynthesizeRequest arguments, Console& console) {
   if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
   if (Status s = console.takeOutput(arguments.output, "-o", ".glb"); !s) return s;
@@ -184,6 +212,7 @@ Status run(SynthesizeRequest arguments, Console& console) {
   files.writes("--atlas-picture", arguments.atlasPicture, {".png"});
   files.reads("SCENE", arguments.scene.path);
   files.reads("--rtt", arguments.rtt);
+  files.reads("--tint", tintFile(arguments));
   if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
   auto rtt = console.stage("read RTT", [&] {
@@ -212,6 +241,9 @@ Status run(SynthesizeRequest arguments, Console& console) {
     options.tiles = Vec2(float(arguments.tiles->width), float(arguments.tiles->height));
   }
   options.direction = arguments.direction;
+  auto tint = tintOf(arguments, *scene);
+  if (!tint) return tint.error();
+  options.tint = *tint;
   if (arguments.preview) hasten(arguments, *scene, *rtt);
   options.transfer = arguments.transfer.chosen(console);
   options.transfer.bands = rtt->bands;
@@ -310,6 +342,11 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
             "Of pieces: 0 repeats the patch wherever the surface lets it, 1 scatters it about. "
             "Without it: what the patch bears")
       ->option_text("0..1")
+      ->group("Placement");
+  app->add_option("--tint", arguments->tint,
+                  "What varies the patch's colours: own, the mesh's texture and colours; or a "
+                  "picture, sRGB, over the mesh's own UVs. Without it: nothing does")
+      ->option_text("own|FILE.png|FILE.jpg")
       ->group("Placement");
   app->add_option("--mesh", arguments->meshes,
                   "Name or number of a mesh that gets the patch; may be given several times. "

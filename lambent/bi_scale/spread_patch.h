@@ -9,6 +9,7 @@
 
 #include "lambent/asset/asset.h"
 #include "lambent/atlas/atlas.h"
+#include "lambent/bi_scale/tint.h"
 #include "lambent/macro/bake.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
@@ -47,6 +48,7 @@ struct SpreadOptions {
   std::uint64_t seed = 0;
   Rgb albedo =
       Rgb::Constant(0.5f);  ///< of the patch as a whole: what it sends on to other surfaces
+  Tint tint;                ///< what of the meshes' own colours varies the patch's
   macro::BakeOptions transfer;
   transfer::Encoding matrixEncoding = transfer::Encoding::Snorm8;
   transfer::Encoding vectorEncoding =
@@ -82,7 +84,7 @@ struct Spread {
 };
 
 /// The patch's colours and relief take the place of the material, texture and vertex colours of the
-/// meshes that carry it. Everything else in the scene is baked at its vertices. BadInput
+/// meshes that carry it, but for their tint. Everything else in the scene is baked at its vertices. BadInput
 /// and BadUsage name the mesh.
 Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::EncodedRtt& rtt,
                                          const SpreadOptions& options,
