@@ -203,19 +203,52 @@ struct Spreader {
     return std::move(atlas);
   }
 
-  Result<synthesis::TangentField> fieldOf(std::uint32_t index, int turns) {
+  /// What steers a mesh at its vertices, before it is laid out.
+  Result<std::vector<synthesis::Guide>> guidesFor(std::uint32_t index, SpreadReport& report) {
+    using Guides = std::vector<synthesis::Guide>;
     const scene::Mesh& mesh = scene.meshes[index];
-    auto combed = staged(progress, "tangent field", [&] {
-      return synthesis::tangentField(mesh, {.direction = options.direction, .turns = turns});
-    });
+    Result<Guides> guides = Guides();
+    if (const auto* curves = std::get_if<CurveSteering>(&options.steering))
+      guides = guidesBy(*curves, mesh);
+    else if (const auto* picture = std::get_if<PictureSteering>(&options.steering))
+      guides = guidesBy(*picture, mesh);
+    if (!guides) return named(guides.error(), mesh, index);
+    if (guides->empty()) return guides;
+    const auto steered = std::count_if(guides->begin(), guides->end(),
+                                       [](const auto& guide) { return guide.weight > 0.0f; });
+    report.guided = double(steered) / double(guides->size());
+    if (steered == 0)
+      findings.push_back({Severity::Warning, "steers-nothing",
+                          quoted(mesh, index) +
+                              ": no vertex is near a curve, or under a colour other than grey: "
+                              "--direction steers nothing here",
+                          1});
+    return guides;
+  }
+
+  Result<synthesis::TangentField> fieldOf(std::uint32_t index, int turns,
+                                          std::vector<synthesis::Guide> guides,
+                                          SpreadReport& report) {
+    const scene::Mesh& mesh = scene.meshes[index];
+    synthesis::TangentFieldOptions how;
+    if (const auto* direction = std::get_if<Vec3>(&options.steering)) how.direction = *direction;
+    how.guides = std::move(guides);
+    how.align = options.align;
+    how.turns = turns;
+    auto combed =
+        staged(progress, "tangent field", [&] { return synthesis::tangentField(mesh, how); });
     if (!combed) return named(combed.error(), mesh, index);
+    report.featureLines = combed->value.featureLines;
+    report.alignedLines = combed->value.alignedLines;
     findings.insert(findings.end(), combed->findings.begin(), combed->findings.end());
     return std::move(combed->value);
   }
 
   Status byLattice(std::uint32_t index, SpreadReport& report, Placed& placed,
                    std::vector<Vec3>& tangents) {
-    auto combed = fieldOf(index, symmetry->turns);
+    auto guides = guidesFor(index, report);
+    if (!guides) return guides.error();
+    auto combed = fieldOf(index, symmetry->turns, std::move(*guides), report);
     if (!combed) return combed.error();
     const synthesis::Manifold manifold = synthesis::manifoldOf(scene.meshes[index]);
     synthesis::CrossField field =
@@ -257,10 +290,15 @@ struct Spreader {
 
   Status byPieces(std::uint32_t index, SpreadReport& report, Placed& placed,
                   std::vector<Vec3>& tangents) {
+    auto guides = guidesFor(index, report);
+    if (!guides) return guides.error();
     auto atlas = atlasOf(index, options.atlas, report);
     if (!atlas) return atlas.error();
     const scene::Mesh& mesh = scene.meshes[index];
-    auto field = fieldOf(index, 1);
+    if (!guides->empty())
+      for (std::size_t v = guides->size(); v < mesh.positions.size(); ++v)
+        guides->push_back(synthesis::Guide((*guides)[atlas->sourceVertex[v]]));
+    auto field = fieldOf(index, 1, std::move(*guides), report);
     if (!field) return field.error();
 
     const Vec2 patch = placed.patch.scale * rtt.size;

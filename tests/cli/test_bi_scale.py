@@ -123,6 +123,40 @@ class Spread(BiScaleTest):
         self.refused(*spread, "none.png", says="none.png")
         self.refused(*spread, "light.hdr", says=["light.hdr", "PNG"])
 
+    def test_it_lies_along_creases_unless_it_is_not_to(self):
+        self.rtt("bricks")
+        self.write("cube.obj", "\n".join(
+            [f"v {x} {y} {z}" for x in (0, 1) for y in (0, 1) for z in (0, 1)] +
+            [f"f {a} {b} {c} {d}" for a, b, c, d in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2),
+                                                    (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))]))
+        surface, = self.spread(scene="cube.obj", output="cube.glb")["surfaces"]
+        self.assertEqual(surface["feature_lines"], 12)
+        self.assertGreater(surface["aligned_lines"], 3)
+        self.assertIn("of 12 creases", self.run_tool(
+            "synthesize", "cube.obj", "--rtt", "patch.rtt", "-o", "cube.glb", "--preview").stdout)
+        for other in (("--no-align",), ("--direction", "0,1,0")):
+            surface, = self.spread(*other, scene="cube.obj", output="cube.glb")["surfaces"]
+            self.assertEqual(surface["feature_lines"], 0)
+
+    def test_curves_and_pictures_steer_it(self):
+        self.rtt("bricks")
+        self.write("quad.obj", quad_obj())
+        self.write("strokes.csv", "curve,x,y,z\na,-1,0,-1\na,-1,0,1\n")
+        self.write("strokes.obj", "v 9 9 9\nv 9 9 8\nl 1 2\n")
+        self.write("arrows.png", png(4, 4, lambda x, y: (255, 128, 128)))
+        self.write("grey.png", png(4, 4, lambda x, y: (128, 128, 128)))
+        for file, share, found in (("strokes.csv", 0.5, ()), ("strokes.obj", 0, {"steers-nothing"}),
+                                   ("arrows.png", 1, ()), ("grey.png", 0, {"steers-nothing"})):
+            summary = self.spread("--direction", file, scene="quad.obj", output="quad.glb")
+            self.assertEqual(summary["surfaces"][0]["guided"], share, file)
+            codes = {finding["code"] for finding in summary["findings"]}
+            self.assertEqual(codes & {"steers-nothing"}, set(found), file)
+        self.write("bad.csv", "a,0,0,0\na,1,0\n")
+        spread = ("synthesize", "quad.obj", "--rtt", "patch.rtt", "-o", "a.glb", "--direction")
+        self.refused(*spread, "bad.csv", says=["bad.csv, line 2", "curve,x,y,z"])
+        self.refused(*spread, "none.csv", says="none.csv")
+        self.refused(*spread, "0,1,0", "--map", "uv", code=USAGE, says="--map uv")
+
     def test_the_file_is_sound_to_other_tools(self):
         self.rtt()
         self.spread()
