@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-all=(gltf obj ply asset rtt exr hdr png jpeg webp light view source atmosphere uri)
+all=(gltf obj ply asset rtt exr hdr png jpeg webp light view source atmosphere uri curves)
 seconds=5 coverage= targets=()
 usage() {
   sed -n 's/^# \{0,1\}//; 2,10p' "$0" >&2
@@ -99,6 +99,7 @@ sources_of() {
         gltf_material gltf_materials linked_files texture"
       ;;
     obj) room=scene_io names="mtl obj polygon" ;;
+    curves) room=scene_io names=curves ;;
     ply) room=scene_io names="ply ply_header" ;;
     asset)
       room=asset names="accessors bi_scale_part check check_gltf faults is_asset json_fields read

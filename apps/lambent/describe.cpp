@@ -164,10 +164,16 @@ Description describeBiScale(const asset::BiScaleSummary& biScale, std::uint64_t 
       biScale.idMapWidth > 0
           ? fmt::format("id map {}x{}", biScale.idMapWidth, biScale.idMapHeight)
           : fmt::format("{:.4g}x{:.4g} tiles of its UVs", biScale.tiles.x(), biScale.tiles.y());
+  const bool textured = biScale.tintWidth > 0;
+  std::string tint;
+  if (textured)
+    tint = fmt::format(", tinted by {}x{} texels", biScale.tintWidth, biScale.tintHeight);
+  if (biScale.tintedVertices)
+    tint += textured ? " and colours of vertices" : ", tinted by colours of vertices";
   Description d;
-  d.text = fmt::format("bi-scale, {} vertices, {}, {} of {} bands{}\n", formatCount(receivers),
+  d.text = fmt::format("bi-scale, {} vertices, {}, {} of {} bands{}{}\n", formatCount(receivers),
                        where, matrices, biScale.bands,
-                       any ? fmt::format(", {}", nameOf(biScale.encoding)) : "");
+                       any ? fmt::format(", {}", nameOf(biScale.encoding)) : "", tint);
   d.json = {{"rtt", biScale.rtt},
             {"bands", biScale.bands},
             {"scale", biScale.scale},
@@ -176,7 +182,10 @@ Description describeBiScale(const asset::BiScaleSummary& biScale, std::uint64_t 
             {"shadowed", biScale.shadowed},
             {"interreflected", biScale.interreflected},
             {"channels", biScale.channels},
-            {"encoding", nameOf(biScale.encoding)}};
+            {"encoding", nameOf(biScale.encoding)},
+            {"tint",
+             {{"texels", {biScale.tintWidth, biScale.tintHeight}},
+              {"vertex_colors", biScale.tintedVertices}}}};
   return d;
 }
 

@@ -16,13 +16,34 @@
 #include "lambent/asset/asset.h"
 #include "lambent/asset/rtt_file.h"
 #include "lambent/bi_scale/spread_patch.h"
+#include "lambent/file/atomic_file.h"
+#include "lambent/file/budget.h"
+#include "lambent/file/extension.h"
 #include "lambent/meso/effective_albedo.h"
+#include "lambent/scene_io/curves.h"
+#include "lambent/scene_io/texture.h"
 #include "lambent/transfer/encode.h"
 #include "lambent/transfer/names.h"
 
 namespace lambent::tool {
 
 namespace {
+
+/// What --direction says.
+struct SteeringArgument {
+  std::optional<Vec3> direction;
+  std::filesystem::path file;  ///< of curves, or a picture
+};
+
+/// "0,0,1", or a file: what has an extension that begins with a letter.
+Result<SteeringArgument> parseSteering(std::string_view text) {
+  const std::string extension = file::extensionOf(text);
+  if (extension.size() > 1 && extension[1] >= 'a' && extension[1] <= 'z')
+    return SteeringArgument{{}, text};
+  const auto direction = parseDirection(text);
+  if (!direction) return direction.error();
+  return SteeringArgument{*direction, {}};
+}
 
 struct SynthesizeRequest {
   SceneArguments scene;
@@ -31,9 +52,12 @@ struct SynthesizeRequest {
   std::vector<std::string> meshes;
   std::optional<Size> tiles;
   bi_scale::SpreadOptions options;
-  std::optional<Vec3> direction;
+  SteeringArgument steering;
+  std::string tint;  ///< kOwnTint or a picture; empty: none
   bool preview = false;
 };
+
+constexpr std::string_view kOwnTint = "own";
 
 constexpr std::string_view kSynthesizeExamples = R"(Examples:
   lambent rtt weave -o weave.rtt
@@ -46,8 +70,12 @@ constexpr std::string_view kSynthesizeExamples = R"(Examples:
       A patch as wide as 0.3 units of the model.
   lambent synthesize bird.glb --rtt scales.rtt -o bird.glb --direction 0,0,1 --atlas-picture a.png
       The patch's +x follows +z; a picture of the charts and of where the patch stands.
+  lambent synthesize sleeve.glb --rtt knit.rtt -o knitted.glb --direction strokes.csv
+      The knit follows strokes over the sleeve, lines of curve,x,y,z, not its creases and borders.
   lambent synthesize vase.glb --rtt flower.rtt -o vase2.glb --map uv --tiles 8x4
       No synthesis: the vase's own UVs repeat the patch.
+  lambent synthesize jumper.glb --rtt knit.rtt -o jumper2.glb --tint own
+      The jumper's own texture and vertex colours dye the wool.
   lambent render bunny.glb --light sky.exr -o a.png --macro off
       What the macro-scale brings: without it the bunny glows.
 )";
@@ -84,6 +112,17 @@ std::string repeats(const synthesis::PatchSymmetry& symmetry) {
   return text;
 }
 
+/// How it lies, beyond its smoothness.
+std::string aligned(const bi_scale::SpreadReport& r) {
+  std::string text;
+  if (r.guided > 0.0)
+    text += fmt::format("    steered at {:.3g}% of the vertices\n", 100.0 * r.guided);
+  if (r.featureLines > 0)
+    text += fmt::format("    along or across {} of {} creases and borders\n", r.alignedLines,
+                        r.featureLines);
+  return text;
+}
+
 std::string reportText(const bi_scale::SpreadReport& r) {
   std::string text = fmt::format("  {}: {:.1f} patches, each {:.4g} wide, at {} vertices\n",
                                  r.name.empty() ? "mesh " + std::to_string(r.mesh) : r.name,
@@ -102,12 +141,14 @@ std::string reportText(const bi_scale::SpreadReport& r) {
         "by more than a half over {:.1f}% of the surface\n",
         repeats(r.symmetry), r.singularities, 100.0 * r.continued, 100.0 * r.sizeError,
         100.0 * r.squeezed);
+    text += aligned(r);
     atlas();
   } else if (r.mesoVertices > 0) {
     text += fmt::format("    laid in pieces; {}\n", repeats(r.symmetry));
     text += fmt::format(
         "    {} meso-vertices, {} singularities of the tangent field, randomness {:.2f}\n",
         formatCount(r.mesoVertices), r.singularities, r.randomness);
+    text += aligned(r);
     atlas();
   }
   if (r.matrixError > 0.0)
@@ -125,6 +166,9 @@ Json asJson(const bi_scale::SpreadReport& r) {
           {"vertices", r.vertices},
           {"meso_vertices", r.mesoVertices},
           {"singularities", r.singularities},
+          {"feature_lines", r.featureLines},
+          {"aligned_lines", r.alignedLines},
+          {"guided", r.guided},
           {"randomness", r.randomness},
           {"layout", r.layout == bi_scale::Layout::Lattice ? "lattice" : "pieces"},
           {"patch_symmetry",
@@ -176,6 +220,63 @@ std::size_t makeWhole(scene::Scene& scene) {
   return count;
 }
 
+/// The file of a --tint that is one.
+std::filesystem::path tintFile(const SynthesizeRequest& arguments) {
+  return arguments.tint == kOwnTint ? std::string() : arguments.tint;
+}
+
+Result<scene::Texture> readPicture(const SynthesizeRequest& arguments,
+                                   const std::filesystem::path& path) {
+  const auto bytes = file::readWhole(path);
+  if (!bytes) return bytes.error();
+  file::Budget budget(arguments.scene.reading.memoryLimit);
+  budget.addFile(bytes->size());
+  auto picture = scene_io::decodeTexture(*bytes, path.string(), budget);
+  if (picture) picture->name = path.stem().string();
+  return picture;
+}
+
+/// What steers the patch, in the coordinates of the scene.
+Status steer(const SynthesizeRequest& arguments, const scene::Scene& scene,
+             bi_scale::SpreadOptions& options) {
+  const auto& [direction, file] = arguments.steering;
+  if (!direction && file.empty()) return Status::ok();
+  if (options.placement == bi_scale::Placement::OwnUvs)
+    return badUsage(
+        "--direction steers the synthesis: with --map uv the mesh's UVs say how the "
+        "patch lies");
+  if (direction) {
+    options.steering = *direction;
+    return Status::ok();
+  }
+  const std::string extension = file::extensionOf(file);
+  if (extension != ".csv" && extension != ".obj") {
+    auto picture = readPicture(arguments, file);
+    if (!picture) return picture.error();
+    options.steering = bi_scale::PictureSteering{std::move(*picture)};
+    return Status::ok();
+  }
+  const auto curves = scene_io::readCurves(file);
+  if (!curves) return curves.error();
+  bi_scale::CurveSteering steering;
+  for (const scene_io::Polyline& curve : *curves) {
+    bi_scale::Curve& to = steering.curves.emplace_back();
+    for (const Vec3d& point : curve) to.push_back((point - scene.origin).cast<float>());
+  }
+  options.steering = std::move(steering);
+  return Status::ok();
+}
+
+/// The picture of a --tint becomes one of the scene's.
+Result<bi_scale::Tint> tintOf(const SynthesizeRequest& arguments, scene::Scene& scene) {
+  if (arguments.tint.empty()) return bi_scale::Tint(bi_scale::NoTint{});
+  if (arguments.tint == kOwnTint) return bi_scale::Tint(bi_scale::OwnTint{});
+  auto picture = readPicture(arguments, arguments.tint);
+  if (!picture) return picture.error();
+  scene.textures.push_back(std::move(*picture));
+  return bi_scale::Tint(bi_scale::PictureTint{int(scene.textures.size()) - 1});
+}
+
 Status run(SynthesizeRequest arguments, Console& console) {
   if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
   if (Status s = console.takeOutput(arguments.output, "-o", ".glb"); !s) return s;
@@ -184,6 +285,8 @@ Status run(SynthesizeRequest arguments, Console& console) {
   files.writes("--atlas-picture", arguments.atlasPicture, {".png"});
   files.reads("SCENE", arguments.scene.path);
   files.reads("--rtt", arguments.rtt);
+  files.reads("--tint", tintFile(arguments));
+  files.reads("--direction", arguments.steering.file);
   if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
   auto rtt = console.stage("read RTT", [&] {
@@ -211,7 +314,10 @@ Status run(SynthesizeRequest arguments, Console& console) {
       return badUsage("--tiles says how often UVs repeat the patch: it goes with --map uv");
     options.tiles = Vec2(float(arguments.tiles->width), float(arguments.tiles->height));
   }
-  options.direction = arguments.direction;
+  if (Status status = steer(arguments, *scene, options); !status) return status;
+  auto tint = tintOf(arguments, *scene);
+  if (!tint) return tint.error();
+  options.tint = *tint;
   if (arguments.preview) hasten(arguments, *scene, *rtt);
   options.transfer = arguments.transfer.chosen(console);
   options.transfer.bands = rtt->bands;
@@ -301,15 +407,27 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
             "With --map uv: how often the patch repeats along u and v, as in 8x4")
       ->option_text("UxV")
       ->group("Placement");
-  addParsed(*app, "--direction", arguments->direction, parseDirection,
-            "Steers the patch: its +x follows this direction in the world where the surface lets "
-            "it. Without it the field is as smooth as can be")
-      ->option_text("X,Y,Z")
+  addParsed(*app, "--direction", arguments->steering, parseSteering,
+            "What the patch's +x follows where the surface lets it: a direction in the world; "
+            "curves, lines of curve,x,y,z or l elements of OBJ; or a picture over the mesh's UVs, "
+            "red to the right and green up, grey for no opinion. Without it the field is as "
+            "smooth as can be")
+      ->option_text("X,Y,Z|FILE.csv|FILE.obj|FILE.png")
+      ->group("Placement");
+  app->add_flag(
+         "!--no-align", options.align,
+         "Do not lay the patch along sharp creases and borders, or across them, as it is where "
+         "no direction in the world steers it")
       ->group("Placement");
   addNumber(*app, "--randomness", options.randomness, {0.0, 1.0},
             "Of pieces: 0 repeats the patch wherever the surface lets it, 1 scatters it about. "
             "Without it: what the patch bears")
       ->option_text("0..1")
+      ->group("Placement");
+  app->add_option("--tint", arguments->tint,
+                  "What varies the patch's colours: own, the mesh's texture and colours; or a "
+                  "picture, sRGB, over the mesh's own UVs. Without it: nothing does")
+      ->option_text("own|FILE.png|FILE.jpg")
       ->group("Placement");
   app->add_option("--mesh", arguments->meshes,
                   "Name or number of a mesh that gets the patch; may be given several times. "

@@ -79,7 +79,7 @@ TEST(Spec, KeptShadowedTransferIsWhatTheSchemaSays) {
   const test::Folder folder;
   ASSERT_TRUE(write(keptShadowed(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
-  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.4");
+  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.5");
   const json described = schema("mesh.primitive");
   for (std::size_t i = 0; i < 2; ++i)
     expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][test::kName], described,

@@ -62,6 +62,15 @@ void describe(const transfer::BiScale<Numbers>& biScale, Kind, MeshSummary& summ
 
 void describe(const transfer::NoTransfer&, Kind, MeshSummary&) {}
 
+/// Of a mesh with meso-structure.
+void describeTint(const scene::Scene& scene, const scene::Mesh& mesh, BiScaleSummary& to) {
+  to.tintedVertices = !mesh.colors.empty();
+  const int texture = scene::materialOf(scene, mesh).baseColorTexture;
+  if (texture < 0 || std::size_t(texture) >= scene.textures.size()) return;
+  to.tintWidth = scene.textures[std::size_t(texture)].width;
+  to.tintHeight = scene.textures[std::size_t(texture)].height;
+}
+
 MeshSummary summaryOf(const scene::Scene& scene, const scene::Mesh& mesh,
                       const transfer::EncodedMesh& transfer, Kind kind) {
   const scene::Material& material = scene.materials[std::size_t(mesh.material)];
@@ -82,6 +91,7 @@ MeshSummary summaryOf(const scene::Scene& scene, const scene::Mesh& mesh,
   }
   std::visit([&](const auto& kindOfTransfer) { describe(kindOfTransfer, kind, summary); },
              transfer);
+  if (summary.biScale) describeTint(scene, mesh, *summary.biScale);
   return summary;
 }
 

@@ -51,7 +51,9 @@ struct BiScaleSummary {
   bool shadowed = false, interreflected = false;  ///< which matrices are there
   int channels = 0;                               ///< of the interreflected ones
   transfer::Encoding encoding = transfer::Encoding::Float16;
-  std::uint64_t bytes = 0;  ///< of the matrices
+  std::uint64_t bytes = 0;            ///< of the matrices
+  int tintWidth = 0, tintHeight = 0;  ///< texels of the texture that tints it; 0: none
+  bool tintedVertices = false;        ///< colours of its vertices do
 };
 
 struct MeshSummary {

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/bi_scale/quoted_mesh.h"
 #include "lambent/bi_scale/uv_frames.h"
 #include "lambent/synthesis/appearance.h"
 #include "lambent/synthesis/cross_field.h"
@@ -50,10 +51,6 @@ struct Placed {
   transfer::Patch patch;
 };
 
-std::string quoted(const scene::Mesh& mesh, std::uint32_t index) {
-  return "mesh " + std::to_string(index) + (mesh.name.empty() ? "" : " (\"" + mesh.name + "\")");
-}
-
 Error named(const Error& error, const scene::Mesh& mesh, std::uint32_t index) {
   if (error.kind == ErrorKind::Cancelled) return error;
   return {error.kind, quoted(mesh, index) + ": " + error.message};
@@ -79,28 +76,6 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const scene::Scene& scene,
   return chosen;
 }
 
-/// Everything that the patch brings along replaces the mesh's own.
-void replaceMaterial(scene::Scene& scene, std::uint32_t mesh, const transfer::EncodedRtt& rtt,
-                     const Rgb& albedo, Findings& findings) {
-  const scene::Material& old = scene.materials[std::size_t(scene.meshes[mesh].material)];
-  if (old.source >= 0)
-    findings.push_back({Severity::Note, "material-replaced",
-                        quoted(scene.meshes[mesh], mesh) +
-                            ": its material, with its name and textures, gives way to the patch's",
-                        1});
-  else if (old.baseColorTexture >= 0 || !scene.meshes[mesh].colors.empty())
-    findings.push_back({Severity::Note, "colours-replaced",
-                        quoted(scene.meshes[mesh], mesh) +
-                            ": its texture or vertex colours give way to the patch's",
-                        1});
-  scene::Material material;
-  material.name = rtt.name.empty() ? "meso-structure" : rtt.name;
-  material.diffuse = albedo.max(0.0f).min(1.0f);
-  scene.meshes[mesh].colors.clear();
-  scene.meshes[mesh].material = int(scene.materials.size());
-  scene.materials.push_back(material);
-}
-
 /// Materials and textures that nothing uses any more would only make the file larger.
 void dropUnused(scene::Scene& scene) {
   std::vector<int> materialAt(scene.materials.size(), -1), textureAt(scene.textures.size(), -1);
@@ -124,6 +99,13 @@ void dropUnused(scene::Scene& scene) {
   }
   scene.materials = std::move(materials);
   scene.textures = std::move(textures);
+}
+
+/// That of a mesh's base colour, or null.
+const scene::Texture* textureOf(const scene::Scene& scene, std::uint32_t mesh) {
+  const int texture = scene.materials[std::size_t(scene.meshes[mesh].material)].baseColorTexture;
+  const bool has = texture >= 0 && !scene.meshes[mesh].uvs.empty();
+  return has ? &scene.textures[std::size_t(texture)] : nullptr;
 }
 
 /// What the encoding of the matrices costs: relative RMS, of the most that is held.
@@ -188,6 +170,21 @@ struct Spreader {
                    : byPieces(index, report, placed, tangents);
   }
 
+  /// The texture that tints a mesh, laid out as its atlas is.
+  void tintAnew(std::uint32_t index, const atlas::Atlas& atlas) {
+    const scene::Texture* tint = textureOf(scene, index);
+    if (!tint) return;
+    announce(progress, "tint");
+    std::vector<Vec2> uvs;
+    for (const std::uint32_t v : atlas.sourceVertex) uvs.push_back(scene.meshes[index].uvs[v]);
+    // The atlas keeps its charts so many of its texels apart.
+    const int size = options.atlas.size, gutter = std::max(options.atlas.gutter, 2);
+    scene::Texture made = laidOut(*tint, uvs, atlas.mesh, (2 * size + gutter - 1) / gutter, size);
+    scene::Material& worn = scene.materials[std::size_t(scene.meshes[index].material)];
+    worn.baseColorTexture = int(scene.textures.size());
+    scene.textures.push_back(std::move(made));
+  }
+
   /// Lays the surface out; the mesh becomes the atlas's.
   Result<atlas::Atlas> atlasOf(std::uint32_t index, const atlas::AtlasOptions& how,
                                SpreadReport& report) {
@@ -197,6 +194,7 @@ struct Spreader {
     if (!laidOut) return named(laidOut.error(), mesh, index);
     findings.insert(findings.end(), laidOut->findings.begin(), laidOut->findings.end());
     atlas::Atlas& atlas = laidOut->value;
+    if (!atlas.ownUvs) tintAnew(index, atlas);
     const int material = mesh.material;
     mesh = atlas.mesh;
     mesh.material = material;
@@ -207,19 +205,52 @@ struct Spreader {
     return std::move(atlas);
   }
 
-  Result<synthesis::TangentField> fieldOf(std::uint32_t index, int turns) {
+  /// What steers a mesh at its vertices, before it is laid out.
+  Result<std::vector<synthesis::Guide>> guidesFor(std::uint32_t index, SpreadReport& report) {
+    using Guides = std::vector<synthesis::Guide>;
     const scene::Mesh& mesh = scene.meshes[index];
-    auto combed = staged(progress, "tangent field", [&] {
-      return synthesis::tangentField(mesh, {.direction = options.direction, .turns = turns});
-    });
+    Result<Guides> guides = Guides();
+    if (const auto* curves = std::get_if<CurveSteering>(&options.steering))
+      guides = guidesBy(*curves, mesh);
+    else if (const auto* picture = std::get_if<PictureSteering>(&options.steering))
+      guides = guidesBy(*picture, mesh);
+    if (!guides) return named(guides.error(), mesh, index);
+    if (guides->empty()) return guides;
+    const auto steered = std::count_if(guides->begin(), guides->end(),
+                                       [](const auto& guide) { return guide.weight > 0.0f; });
+    report.guided = double(steered) / double(guides->size());
+    if (steered == 0)
+      findings.push_back({Severity::Warning, "steers-nothing",
+                          quoted(mesh, index) +
+                              ": no vertex is near a curve, or under a colour other than grey: "
+                              "--direction steers nothing here",
+                          1});
+    return guides;
+  }
+
+  Result<synthesis::TangentField> fieldOf(std::uint32_t index, int turns,
+                                          std::vector<synthesis::Guide> guides,
+                                          SpreadReport& report) {
+    const scene::Mesh& mesh = scene.meshes[index];
+    synthesis::TangentFieldOptions how;
+    if (const auto* direction = std::get_if<Vec3>(&options.steering)) how.direction = *direction;
+    how.guides = std::move(guides);
+    how.align = options.align;
+    how.turns = turns;
+    auto combed =
+        staged(progress, "tangent field", [&] { return synthesis::tangentField(mesh, how); });
     if (!combed) return named(combed.error(), mesh, index);
+    report.featureLines = combed->value.featureLines;
+    report.alignedLines = combed->value.alignedLines;
     findings.insert(findings.end(), combed->findings.begin(), combed->findings.end());
     return std::move(combed->value);
   }
 
   Status byLattice(std::uint32_t index, SpreadReport& report, Placed& placed,
                    std::vector<Vec3>& tangents) {
-    auto combed = fieldOf(index, symmetry->turns);
+    auto guides = guidesFor(index, report);
+    if (!guides) return guides.error();
+    auto combed = fieldOf(index, symmetry->turns, std::move(*guides), report);
     if (!combed) return combed.error();
     const synthesis::Manifold manifold = synthesis::manifoldOf(scene.meshes[index]);
     synthesis::CrossField field =
@@ -261,10 +292,15 @@ struct Spreader {
 
   Status byPieces(std::uint32_t index, SpreadReport& report, Placed& placed,
                   std::vector<Vec3>& tangents) {
+    auto guides = guidesFor(index, report);
+    if (!guides) return guides.error();
     auto atlas = atlasOf(index, options.atlas, report);
     if (!atlas) return atlas.error();
     const scene::Mesh& mesh = scene.meshes[index];
-    auto field = fieldOf(index, 1);
+    if (!guides->empty())
+      for (std::size_t v = guides->size(); v < mesh.positions.size(); ++v)
+        guides->push_back(synthesis::Guide((*guides)[atlas->sourceVertex[v]]));
+    auto field = fieldOf(index, 1, std::move(*guides), report);
     if (!field) return field.error();
 
     const Vec2 patch = placed.patch.scale * rtt.size;
@@ -362,7 +398,10 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
     placed.patch.scale = width / rtt.size.x();
     report.patches = report.area / (double(placed.patch.scale) * placed.patch.scale * rtt.size.x() *
                                     rtt.size.y());
-    replaceMaterial(scene, m, rtt, options.albedo, findings);
+    auto worn = wearPatch(scene, m, rtt.name.empty() ? "meso-structure" : rtt.name,
+                          options.albedo.max(0.0f).min(1.0f), options.tint);
+    if (!worn) return worn.error();
+    findings.insert(findings.end(), worn->begin(), worn->end());
     transport::LocalFrames& frames = placement.local.emplace_back();
     frames.mesh = m;
     const Status status = options.placement == Placement::OwnUvs

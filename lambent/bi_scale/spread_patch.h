@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "lambent/asset/asset.h"
 #include "lambent/atlas/atlas.h"
+#include "lambent/bi_scale/direction_guides.h"
+#include "lambent/bi_scale/tint.h"
 #include "lambent/macro/bake.h"
 #include "lambent/report/finding.h"
 #include "lambent/report/progress.h"
@@ -38,7 +41,11 @@ struct SpreadOptions {
   Layout layout = Layout::Automatic;
   Vec2 tiles = Vec2(0.0f, 0.0f);   ///< OwnUvs: patches along u and v; 0: from patchWidth
   std::uint32_t mesoVertices = 0;  ///< 0: one for each position of the patch, to 960,000
-  std::optional<Vec3> direction;   ///< steers the patch's +x, world space
+  /// What the patch's +x follows: nothing, a direction (world space), curves, a picture.
+  std::variant<std::monostate, Vec3, CurveSteering, PictureSteering> steering;
+  /// Along sharp creases and borders of the surface, where nothing else steers it: see
+  /// synthesis::TangentFieldOptions::align.
+  bool align = true;
   /// 0 … 1: see synthesis::SynthesisOptions. None: what the patch bears, 0 for one that repeats
   /// itself within its period (a weave would be torn), to 0.5 for one that never does (stucco would
   /// show its tiles).
@@ -47,6 +54,7 @@ struct SpreadOptions {
   std::uint64_t seed = 0;
   Rgb albedo =
       Rgb::Constant(0.5f);  ///< of the patch as a whole: what it sends on to other surfaces
+  Tint tint;                ///< what of the meshes' own colours varies the patch's
   macro::BakeOptions transfer;
   transfer::Encoding matrixEncoding = transfer::Encoding::Snorm8;
   transfer::Encoding vectorEncoding =
@@ -62,7 +70,10 @@ struct SpreadReport {
   float patchWidth = 0.0f;  ///< metres
   std::uint32_t vertices = 0, mesoVertices = 0;
   std::uint32_t singularities = 0;
-  float randomness = 0.0f;  ///< of pieces
+  std::uint32_t featureLines = 0;  ///< sharp creases and borders, if it was to be aligned
+  std::uint32_t alignedLines = 0;  ///< those that it lies along or across
+  double guided = 0.0;             ///< share of the vertices that curves or a picture steer
+  float randomness = 0.0f;         ///< of pieces
   /// Lattice or Pieces, if synthesised, and what the choice stood on.
   Layout layout = Layout::Pieces;
   synthesis::PatchSymmetry symmetry;
@@ -82,7 +93,7 @@ struct Spread {
 };
 
 /// The patch's colours and relief take the place of the material, texture and vertex colours of the
-/// meshes that carry it. Everything else in the scene is baked at its vertices. BadInput
+/// meshes that carry it, but for their tint. Everything else in the scene is baked at its vertices. BadInput
 /// and BadUsage name the mesh.
 Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::EncodedRtt& rtt,
                                          const SpreadOptions& options,

@@ -179,6 +179,97 @@ TEST(SpreadPatch, LeavesOtherMeshesAsTheyAre) {
   EXPECT_EQ(spread.asset.scene.materials[spread.asset.scene.meshes[1].material].name, "spots");
 }
 
+// Triangles keep their sequence when a surface is laid out anew: at the same place of each the tint
+// is what the mesh showed before.
+TEST(SpreadPatch, ATintStaysWhereItWasOnTheSurface) {
+  scene::Material painted;
+  painted.diffuse = Rgb(0.9f, 0.8f, 0.7f);
+  painted.baseColorTexture = 0;
+  scene::Scene scene = scene::sceneOf(scene::uvSphere(1, 24, 16), painted);
+  scene::Texture& texture = scene.textures.emplace_back();
+  texture.width = 128, texture.height = 64;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 128; ++x)
+      for (const double wave : {std::sin(2 * kPi * x / 128), std::cos(2 * kPi * y / 64), 0.5, 2.0})
+        texture.rgba.push_back(std::uint8_t(std::min(255.0, 140 + 100 * wave)));
+  SpreadOptions options = small();
+  options.transfer.kind = transfer::Kind::Shadowed;
+  const Spread plain = spreadOrDie(scene, options);
+  options.tint = OwnTint{};
+  for (const Layout layout : {Layout::Pieces, Layout::Lattice}) {
+    options.layout = layout;
+    const Spread tinted = spreadOrDie(scene, options);
+    EXPECT_TRUE(asset::checkForWriting(tinted.asset));
+    EXPECT_FALSE(tinted.asset.scene.meshes[0].colors.empty()) << "the material's factor";
+    ASSERT_EQ(tinted.asset.scene.textures.size(), 1u);
+    EXPECT_GT(tinted.asset.scene.textures[0].width, 64);
+    double most = 0.0, sum = 0.0;
+    std::size_t count = 0;
+    for (std::uint32_t t = 0; t < scene.meshes[0].triangles.size(); ++t)
+      for (const auto& [u, v] : {std::pair(0.33f, 0.33f), {0.05f, 0.9f}, {0.0f, 0.5f}}) {
+        const scene::SurfacePoint point = scene::surfaceAt(scene, 0, t, u, v);
+        // About the poles the whole width of the picture lies on a few texels.
+        if (std::abs(point.position.y()) > 0.9f) continue;
+        const Rgb was = point.diffuse;
+        const double apart =
+            double((scene::baseColorAt(tinted.asset.scene, 0, t, u, v) - was).abs().maxCoeff());
+        most = std::max(most, apart), sum += apart, ++count;
+      }
+    EXPECT_LT(most, 0.1);
+    EXPECT_LT(sum / double(count), 0.01);
+    // What is hidden has no colour.
+    if (layout != Layout::Pieces) continue;
+    const auto bytes = [](const Spread& spread) {
+      const BiScale& biScale = std::get<BiScale>(spread.asset.transfer.meshes[0]);
+      return biScale.matrices.find(transfer::Kind::Shadowed)->numbers.byte;
+    };
+    EXPECT_EQ(bytes(tinted), bytes(plain));
+  }
+  EXPECT_EQ(plain.asset.scene.textures.size(), 0u);
+}
+
+TEST(SpreadPatch, ByItsOwnUvsAMeshKeepsItsTextureAsItIs) {
+  scene::Material painted;
+  painted.baseColorTexture = 0;
+  scene::Scene scene = scene::sceneOf(scene::torus(1, 0.4f, 40, 20), painted);
+  scene::Texture& texture = scene.textures.emplace_back();
+  texture.width = texture.height = 2;
+  texture.rgba.assign(16, 200);
+  texture.encoded = {1, 2, 3};
+  SpreadOptions options = small();
+  options.placement = Placement::OwnUvs;
+  options.tint = OwnTint{};
+  const Spread spread = spreadOrDie(scene, options);
+  ASSERT_EQ(spread.asset.scene.textures.size(), 1u);
+  EXPECT_EQ(spread.asset.scene.textures[0].encoded, texture.encoded);
+}
+
+// The ground beside a red wall of weave gets red light.
+TEST(SpreadPatch, WhatATintedSurfaceSendsOnHasItsColour) {
+  scene::Material red;
+  red.diffuse = Rgb(1.0f, 0.1f, 0.1f);
+  scene::Scene scene;
+  scene::addTo(scene, scene::icosphere(0.5f, 3), red);
+  scene::addTo(scene, scene::translated(scene::gridPlane(4, 4, 8, 8), Vec3(0, -0.6f, 0)), {});
+  SpreadOptions options = small();
+  options.meshes = {0};
+  options.albedo = Rgb::Constant(0.5f);
+  const auto redness = [&](const Tint& tint) {
+    options.tint = tint;
+    const Spread spread = spreadOrDie(scene, options);
+    const auto& ground =
+        std::get<transfer::Surface<transfer::Numbers>>(spread.asset.transfer.meshes[1]);
+    const auto& vectors = ground.responses.find(spread.asset.transfer.kind)->diffuse->vectors;
+    const std::vector<float> numbers = decode(vectors.numbers);
+    const std::size_t each = numbers.size() / 81, n = vectors.channels == 3 ? 9 : 0;
+    EXPECT_EQ(each * 81, numbers.size());
+    const std::size_t middle = 40 * 9 * std::size_t(vectors.channels);
+    return double(numbers[middle] / numbers[middle + n]);
+  };
+  EXPECT_NEAR(redness(NoTint{}), 1.0, 1e-3);
+  EXPECT_GT(redness(OwnTint{}), 1.01);
+}
+
 TEST(SpreadPatch, RefusesWhatCannotBe) {
   scene::Material mirror;
   mirror.mirror = Rgb::Ones();

@@ -74,10 +74,11 @@ struct LitScene {
 
     const scene::SurfacePoint point = scene::surfaceAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
     const float distance = sight.distance + hit.distance;
+    const Rgb base = scene::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
     const auto patch = patches.find(hit.mesh);
     if (patch != patches.end() && !material.isMirror())
-      return patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(distance));
-    const Rgb base = scene::baseColorAt(scene, hit.mesh, hit.triangle, hit.u, hit.v);
+      return base *
+             patch->second.at(hit.triangle, hit.u, hit.v, point, toViewer, width.at(distance));
     if (material.isMirror())
       return material.mirror * base *
              shownByMirror(point, shade::mirrored(toViewer, point.normal),

@@ -60,6 +60,14 @@ std::vector<PatchVertex> gatherVertices(const scene::Mesh& mesh, const BiScale& 
   return vertices;
 }
 
+/// [vertex][3], or nothing.
+std::vector<Rgb> gatherTints(const scene::Mesh& mesh, const TriangleBatch& batch) {
+  std::vector<Rgb> tints;
+  if (mesh.colors.empty()) return tints;
+  for (const std::uint32_t from : batch.vertices) tints.push_back(mesh.colors[from]);
+  return tints;
+}
+
 /// Of the triangles first … first + count − 1.
 std::vector<PatchTriangle> gatherTriangles(const scene::Mesh& mesh, const BiScale& biScale,
                                            std::size_t first, std::size_t count) {
@@ -228,10 +236,10 @@ GlPatches::ProgramKey GlPatches::programOf(int index, const Rtt& rtt, bool filte
 Status GlPatches::addProgram(const ProgramKey& key) {
   if (programs_.contains(key)) return Status::ok();
   const auto [bands, encoding, filter, relief] = key;
-  // Place, normal, tangent and texture coordinates are interpolated as well.
+  // Place, normal, tangent, texture coordinates and tint are interpolated as well.
   GLint mostVaryings = 0;
   glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
-  const bool interpolated = 4 * (groupsOf(bands) + 3) <= mostVaryings;
+  const bool interpolated = 4 * (groupsOf(bands) + 4) <= mostVaryings;
   const std::string defines = fmt::format(
       "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
       "#define LAMBENT_RELIEF {:d}\n"
@@ -239,11 +247,12 @@ Status GlPatches::addProgram(const ProgramKey& key) {
       "{}\n{}\n",
       groupsOf(bands), interpolated, filter, relief, numbersDefine(encoding),
       unrolledDefines(bands, encoding));
-  std::vector<std::string> fragment = {defines};
+  std::vector<std::string> fragment = {defines, "#define LAMBENT_MAP 1"};
   for (const char* name :
        {"incident.glsl", "corner_weights.glsl", "rtt_response.glsl", "view_square.glsl",
         "rtt_footprint.glsl", "rtt_look_up.glsl", "tangent_frame.glsl", "shading_normal.glsl",
-        "patch_place.glsl", "sample_alpha.glsl", "patch.frag.glsl"})
+        "patch_place.glsl", "sample_alpha.glsl", "base_color.glsl", "base_color_map.glsl",
+        "patch.frag.glsl"})
     fragment.emplace_back(shaderSource(name));
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",
@@ -285,6 +294,7 @@ Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
     draw.vertices = makeBuffer(gatherVertices(mesh, biScale, batch));
     draw.triangles = makeBuffer(gatherTriangles(mesh, biScale, first, count));
     draw.corners = makeBuffer(batch.corners);
+    if (!mesh.colors.empty()) draw.tints = makeBuffer(gatherTints(mesh, batch));
     draw.cornerCount = int(batch.corners.size());
     if (Status s = checkGl("uploading a mesh"); !s) return s;
     Result<Relit> light = transfer.incident(biScale, batch.vertices, rtt.bands,
@@ -334,7 +344,7 @@ void GlPatches::setLight(std::vector<Relit> light) {
   }
 }
 
-void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
+void GlPatches::draw(const GlView& view, const GlBaseColors& colors, GLuint vertexArray) const {
   for (const Draw& draw : draws_) {
     const BiScale& biScale = biScaleOf(draw.mesh);
     const EncodedRtt& encoded = rttOf(draw.mesh);
@@ -358,12 +368,15 @@ void GlPatches::draw(const GlView& view, GLuint vertexArray) const {
       program.set("relief", rtt.relief.x(), rtt.relief.y());
       glBindTextureUnit(2, rtt.heights.name());
     }
-    glBindTextureUnit(0, rtt.texture.name());
+    colors.bind(program, draw.mesh);
+    program.set("hasTints", int(draw.tints.name() != 0));
+    glBindTextureUnit(3, rtt.texture.name());
     glBindTextureUnit(1, biScale.patch.idMap() ? idMaps_.at(draw.mesh).name() : 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, draw.vertices.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, draw.light.product.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, draw.triangles.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, draw.corners.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, draw.tints.name());
     glVertexArrayElementBuffer(vertexArray, draw.corners.name());
     glDrawElements(GL_TRIANGLES, draw.cornerCount, GL_UNSIGNED_INT, nullptr);
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lambent/asset/asset.h"
+#include "lambent/render/gl_base_colors.h"
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
@@ -45,7 +46,7 @@ class GlPatches {
 
   /// Draws them into the bound framebuffer: as GlSurfaces::draw. A vertex array must be bound;
   /// its element buffer is changed.
-  void draw(const GlView& view, GLuint vertexArray) const;
+  void draw(const GlView& view, const GlBaseColors& colors, GLuint vertexArray) const;
   /// Calls draw(mesh, vertices, corners, count) for every piece: vertices hold positions and
   /// texture coordinates where unlit.vert.glsl seeks them.
   template <class DrawUnlit>
@@ -73,6 +74,7 @@ class GlPatches {
   struct Draw {
     std::uint32_t mesh = 0;
     Buffer vertices, triangles, corners;
+    Buffer tints;  ///< colours of the vertices; none: white
     Relit light;
     int cornerCount = 0;
   };

@@ -149,6 +149,22 @@ TEST(GlPatches, StandBesideOtherSurfaces) {
   expectAgreement("patches-beside", asset, kPatchCamera, small(2));
 }
 
+TEST(GlPatches, EqualTheCpuUnderATint) {
+  for (const bool map : {false, true}) {
+    asset::Asset asset = ballAndFloor(map ? mapped() : SpreadOptions(), 3, 4);
+    scene::Texture& texture = asset.scene.textures.emplace_back();
+    texture.width = 16, texture.height = 8;
+    texture.wrapV = scene::Wrap::ClampToEdge;
+    for (int i = 0; i < 128; ++i)
+      texture.rgba.insert(texture.rgba.end(), {std::uint8_t(i % 3 ? 250 : 40), std::uint8_t(2 * i),
+                                               std::uint8_t(255 - i), 255});
+    asset.scene.materials[0].baseColorTexture = 0;
+    for (const Vec3& p : asset.scene.meshes[1].positions)
+      asset.scene.meshes[1].colors.emplace_back(0.9f, 0.5f + 0.1f * p.x(), 0.4f - 0.1f * p.z());
+    expectAgreement("patches-tinted-" + std::to_string(map), asset, kPatchCamera, small(2));
+  }
+}
+
 TEST(GlPatches, SayWhatIsNotHeld) {
   const asset::Asset asset = ballAndFloor({}, 2, 1);
   const light::Environment sky = shade::test::sky();

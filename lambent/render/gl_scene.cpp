@@ -218,7 +218,7 @@ void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
   surfaces_.draw(view,
                  {environment, mirrors_ ? &*mirrors_ : nullptr, sunMap_ ? &*sunMap_ : nullptr},
                  colors_, options_.showing, noAttributes_.name());
-  patches_.draw(view, noAttributes_.name());
+  patches_.draw(view, colors_, noAttributes_.name());
 }
 
 void GlScene::drawUnlit(const GlView& view) const {

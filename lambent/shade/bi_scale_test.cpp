@@ -82,6 +82,69 @@ TEST(BiScale, APictureOfAFlatPatchIsOneOfDiffuseTransfer) {
   EXPECT_LT(image::compare(b->pixels, a->pixels)->rmse, 2e-3);
 }
 
+/// Adds a texture of 4×4 colours, and returns its index.
+int addTint(asset::Asset& asset) {
+  scene::Texture texture;
+  texture.width = texture.height = 4;
+  for (int i = 0; i < 64; ++i) texture.rgba.push_back(std::uint8_t(i % 4 == 3 ? 255 : 55 + 3 * i));
+  asset.scene.textures.push_back(std::move(texture));
+  return int(asset.scene.textures.size()) - 1;
+}
+
+PictureOptions smallPicture() {
+  PictureOptions options;
+  options.width = options.height = 48;
+  options.samples = 2;
+  return options;
+}
+
+// A tint that is the same everywhere multiplies the picture.
+TEST(BiScale, AnEvenTintMultipliesThePicture) {
+  const Rgb tint(0.9f, 0.5f, 0.2f);
+  asset::Asset plain;
+  addPatched(plain, scene::uvSphere(1.0f, 24, 12), test::bumpyRtt(8, 8, 4, 3), {});
+  asset::Asset tinted = plain;
+  tinted.scene.meshes[0].colors.assign(tinted.scene.meshes[0].positions.size(), tint);
+  const scene::Camera camera = test::cameraAt(Vec3(1, 2, 4), Vec3::Zero());
+  const sh::RgbCoefficients light = unevenLight(3);
+  const auto a = relitPicture(plain, light, {}, camera, smallPicture());
+  const auto b = relitPicture(tinted, light, {}, camera, smallPicture());
+  ASSERT_TRUE(a && b);
+  for (std::size_t i = 0; i < a->pixels.size(); ++i)
+    EXPECT_LT((a->pixels[i] * tint - b->pixels[i]).abs().maxCoeff(), 1e-6f) << i;
+  const std::vector<Rgb> at = exitRadiance(plain, 0, light, seenFrom(Vec3(2, 3, 4)));
+  const std::vector<Rgb> tintedAt = exitRadiance(tinted, 0, light, seenFrom(Vec3(2, 3, 4)));
+  for (std::size_t p = 0; p < at.size(); ++p)
+    EXPECT_LT((at[p] * tint - tintedAt[p]).abs().maxCoeff(), 1e-6f) << p;
+}
+
+// A flat patch under a tint is diffuse transfer under the same texture.
+TEST(BiScale, ATintedFlatPatchIsTexturedDiffuseTransfer) {
+  asset::Asset plain, patched;
+  test::DiffuseOptions textured;
+  textured.texture = true;
+  test::addDiffuse(plain, scene::uvSphere(1.0f, 24, 12), textured);
+  addPatched(patched, scene::uvSphere(1.0f, 24, 12), test::flatRtt(8, 8, 4, 5, Rgb::Constant(0.8f)),
+             {});
+  plain.scene.textures.clear();
+  for (asset::Asset* asset : {&plain, &patched}) {
+    asset->scene.materials[0].baseColorTexture = addTint(*asset);
+    std::vector<Rgb>& colors = asset->scene.meshes[0].colors;
+    for (const Vec3& p : asset->scene.meshes[0].positions)
+      colors.emplace_back(0.5f + 0.4f * p.x(), 0.7f, 0.6f - 0.3f * p.y());
+  }
+  const scene::Camera camera = test::cameraAt(Vec3(1, 2, 4), Vec3::Zero());
+  const sh::RgbCoefficients light = unevenLight(5);
+  const auto a = relitPicture(plain, light, {}, camera, smallPicture());
+  const auto b = relitPicture(patched, light, {}, camera, smallPicture());
+  ASSERT_TRUE(a && b);
+  EXPECT_LT(image::compare(b->pixels, a->pixels)->rmse, 2e-3);
+  const std::vector<Rgb> at = exitRadiance(plain, 0, light);
+  const std::vector<Rgb> patchedAt = exitRadiance(patched, 0, light);
+  for (std::size_t p = 0; p < at.size(); ++p)
+    EXPECT_LT((at[p] - patchedAt[p]).abs().maxCoeff(), 2e-5f) << p;
+}
+
 /// A floor at the origin (normal +y) whose patch lies along `tangent`.
 asset::Asset floorOf(const transfer::SimulatedRtt& rtt, SpreadOptions options) {
   asset::Asset asset;

@@ -38,8 +38,8 @@ class LitPatch {
   LitPatch(const asset::Asset& asset, std::uint32_t mesh, std::shared_ptr<const RttPyramid> pyramid,
            const sh::RgbCoefficients& light, const Showing& showing);
 
-  /// Exit radiance (eq. 4) of a place of a triangle towards the viewer. `width`: metres that the
-  /// sub-sample sees across its ray.
+  /// Exit radiance (eq. 4) of a place of a triangle towards the viewer, without the base colour,
+  /// which multiplies it. `width`: metres that the sub-sample sees across its ray.
   Rgb at(std::uint32_t triangle, float u, float v, const scene::SurfacePoint& point,
          const Vec3& toViewer, float width) const;
   /// … of a receiver, at the nearest position of the patch.

@@ -115,8 +115,11 @@ std::vector<Rgb> patchRadiance(const asset::Asset& asset, std::uint32_t mesh,
   const auto& biScale = std::get<transfer::BiScale<Numbers>>(asset.transfer.meshes[mesh]);
   const LitPatch lit(asset, mesh, RttPyramids(asset.transfer, false).of(biScale.patch.rtt), light,
                      view.showing);
-  return atAll(*biScale.receivers, [&](std::size_t p) {
-    return lit.atReceiver(std::uint32_t(p), directionToViewer(view, *biScale.receivers, p));
+  const std::vector<Rgb> tint = receiverBaseColors(asset.scene, mesh, *biScale.receivers);
+  return atAll(*biScale.receivers, [&](std::size_t p) -> Rgb {
+    const Vec3 toViewer = directionToViewer(view, *biScale.receivers, p);
+    const Rgb sent = lit.atReceiver(std::uint32_t(p), toViewer);
+    return tint.empty() ? sent : Rgb(tint[p] * sent);
   });
 }
 

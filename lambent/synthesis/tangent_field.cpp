@@ -1,7 +1,8 @@
 // This work is based on:
 // - knoppel2013globally: the smoothest field is the eigenvector of the least eigenvalue of the
 //   connection Laplacian, found by inverse iteration (§4, algorithms 1 and 2); alignment to a given
-//   field is one linear solve (§3.3, eq. 10); the index of a triangle (§5).
+//   field is one linear solve (§3.3, eq. 10), here to what is given at some vertices too; the index
+//   of a triangle (§5).
 // - sharp2019vector (§5.1-5.2): the Laplacian with cotangent weights over tangent planes whose
 //   angles are scaled to 2π, which we use in place of Knöppel's finite elements.
 // - viertel2019approach: diffusion and normalisation in turns, which spread the singularities of a
@@ -28,8 +29,10 @@
 
 #include "lambent/math/random.h"
 #include "lambent/synthesis/connection_solver.h"
+#include "lambent/synthesis/features_of_field.h"
 #include "lambent/synthesis/frames.h"
 #include "lambent/synthesis/manifold.h"
+#include "lambent/synthesis/tangent_planes.h"
 
 namespace lambent::synthesis {
 namespace {
@@ -37,88 +40,6 @@ namespace {
 using Complex = std::complex<double>;
 using Field = ConnectionSolver::Field;
 using Matrix = ConnectionSolver::Matrix;
-
-/// Per vertex of the manifold a plane with axes x and y, and per half-edge its angle in there.
-struct TangentPlanes {
-  std::vector<Vec3d> normal, x, y;
-  std::vector<double> scale;   ///< of angles at the vertex: to 2π around an inner one
-  std::vector<double> angle;   ///< per half-edge: scaled, at its tail
-  std::vector<double> corner;  ///< per corner: its unscaled angle
-  std::vector<double> mass;    ///< a third of the area around, as a share of the component's
-  int turns = 1;               ///< equivalent directions: u is the power that all of them have
-
-  /// The rotation ρ that carries a tangent, to the power of `turns`, along half-edge h.
-  double transport(const Manifold& m, std::uint32_t h) const {
-    const std::uint32_t head = Manifold::next(h);
-    return turns * (angle[head] + scale[m.vertexOfCorner[head]] * corner[head] + kPi - angle[h]);
-  }
-};
-
-Vec3d position(const scene::Mesh& mesh, std::uint32_t corner) {
-  return mesh.positions[mesh.triangles[corner / 3][corner % 3]].cast<double>();
-}
-
-TangentPlanes tangentPlanes(const scene::Mesh& mesh, const Manifold& m) {
-  TangentPlanes p;
-  const std::size_t count = m.vertexCount();
-  p.normal.assign(count, Vec3d::Zero());
-  p.x.resize(count), p.y.resize(count);
-  p.scale.assign(count, 1.0);
-  p.mass.assign(count, 0.0);
-  p.angle.assign(m.twin.size(), 0.0);
-  p.corner.assign(m.twin.size(), 0.0);
-  for (std::uint32_t v = 0; v < count; ++v) {
-    double total = 0.0;
-    Vec3d largest = Vec3d::Zero();
-    std::uint32_t c = m.firstCorner[v];
-    bool closed = false;
-    while (c != kNone && !closed) {
-      const Vec3d at = position(mesh, c);
-      const Vec3d a = position(mesh, Manifold::next(c)) - at;
-      const Vec3d b = position(mesh, Manifold::previous(c)) - at;
-      const Vec3d cross = a.cross(b);
-      const double twiceArea = cross.norm();
-      p.corner[c] = std::atan2(twiceArea, a.dot(b));
-      p.angle[c] = total;
-      total += p.corner[c];
-      p.mass[v] += twiceArea / 6.0;
-      if (twiceArea > 0.0) p.normal[v] += p.corner[c] / twiceArea * cross;
-      if (twiceArea > largest.norm()) largest = cross;
-      c = m.turnLeft(c);
-      closed = c == m.firstCorner[v];
-    }
-    if (closed && total > 0.0) p.scale[v] = 2.0 * kPi / total;
-    // Two sides of a folded sheet cancel: there the largest triangle decides.
-    if (p.normal[v].norm() < 1e-6 * total) p.normal[v] = largest;
-    p.normal[v] = p.normal[v].norm() > 0.0 ? p.normal[v].normalized() : Vec3d(Vec3d::UnitY());
-
-    // The axes that agree best with all edges: the fan is not flat, and every edge's direction in
-    // the plane differs a little from its scaled angle.
-    const Vec3d e0 = p.normal[v].unitOrthogonal(), e1 = p.normal[v].cross(e0);
-    Complex fit = 0.0;
-    c = m.firstCorner[v];
-    do {
-      p.angle[c] *= p.scale[v];
-      const Vec3d a = (position(mesh, Manifold::next(c)) - position(mesh, c)).normalized();
-      fit += Complex(a.dot(e0), a.dot(e1)) * std::polar(1.0, -p.angle[c]);
-      c = m.turnLeft(c);
-    } while (c != kNone && c != m.firstCorner[v]);
-    fit = std::abs(fit) > 1e-12 ? fit / std::abs(fit) : Complex(1.0);
-    p.x[v] = fit.real() * e0 + fit.imag() * e1;
-    p.y[v] = p.normal[v].cross(p.x[v]);
-  }
-  std::vector<double> area(m.components, 0.0), vertices(m.components, 0.0);
-  for (std::uint32_t v = 0; v < count; ++v) {
-    area[m.componentOfVertex[v]] += p.mass[v];
-    vertices[m.componentOfVertex[v]] += 1.0;
-  }
-  for (std::uint32_t v = 0; v < count; ++v) {
-    const std::uint32_t k = m.componentOfVertex[v];
-    const double share = area[k] > 0.0 ? p.mass[v] / area[k] : 0.0;
-    p.mass[v] = std::max(share, 1e-6 / vertices[k]);
-  }
-  return p;
-}
 
 /// smooth · (connection Laplacian) + the diagonal given; lower triangle.
 Matrix laplacian(const Manifold& m, const TangentPlanes& p, double smooth,
@@ -146,35 +67,54 @@ Matrix laplacian(const Manifold& m, const TangentPlanes& p, double smooth,
   return a;
 }
 
+/// A direction in the plane of vertex i, to the power of `turns`. Its length is that of the
+/// projection, whatever the power.
+Complex projectAt(const TangentPlanes& p, std::size_t i, const Vec3d& direction) {
+  const Complex along(direction.dot(p.x[i]), direction.dot(p.y[i]));
+  const double length = std::abs(along);
+  return length > 0.0 ? std::polar(length, p.turns * std::arg(along)) : Complex(0.0);
+}
+
 Field project(const TangentPlanes& p, const Vec3d& direction) {
   Field u(Eigen::Index(p.x.size()));
-  for (std::size_t i = 0; i < p.x.size(); ++i) {
-    const Complex along(direction.dot(p.x[i]), direction.dot(p.y[i]));
-    // Its length is that of the projection, whatever the power.
-    const double length = std::abs(along);
-    u[Eigen::Index(i)] =
-        length > 0.0 ? std::polar(length, p.turns * std::arg(along)) : Complex(0.0);
-  }
+  for (std::size_t i = 0; i < p.x.size(); ++i) u[Eigen::Index(i)] = projectAt(p, i, direction);
   return u;
 }
+
+/// Against the least eigenvalues of the Laplacian, about 10, next to nothing.
+constexpr double kHold = 1e-2;
 
 constexpr const char* kNoMemory =
     "the tangent field's matrix could not be factorised; a mesh with fewer vertices may fit";
 
+/// What draws the field: vertex i to sum_i/strength_i, as strongly as strength_i in the energy.
+struct Pulls {
+  std::vector<double> strength;
+  Field sum;
+
+  explicit Pulls(std::size_t count) : strength(count, 0.0), sum(Field::Zero(Eigen::Index(count))) {}
+  void add(std::size_t i, double howStrongly, const Complex& wanted) {
+    strength[i] += howStrongly;
+    sum[Eigen::Index(i)] += howStrongly * wanted;
+  }
+};
+
 /// Singularities driven apart: as lengths of the smoothest field go to zero around singularities,
 /// it does not mind several of them beside each other, which turn a texture as sharply as one large
 /// one. Diffused for a while and brought back to unit length in turns, it does.
-Result<Field> spread(const Manifold& m, const TangentPlanes& p, Field u) {
+Result<Field> spread(const Manifold& m, const TangentPlanes& p, Field u,
+                     const Pulls* pulls = nullptr) {
   // Times at which a component's longest waves have sunk to about a third, and to nine tenths.
   for (const double time : {0.1, 0.01}) {
-    const ConnectionSolver solver(laplacian(m, p, time, p.mass));
+    std::vector<double> diagonal = p.mass;
+    for (std::size_t i = 0; pulls && i < diagonal.size(); ++i)
+      diagonal[i] += time * pulls->strength[i];
+    const ConnectionSolver solver(laplacian(m, p, time, diagonal));
     if (!solver.ok()) return report::failed(kNoMemory);
     for (int i = 0; i < 15; ++i) {
       Field b = u;
-      for (Eigen::Index k = 0; k < b.size(); ++k) {
-        const double length = std::abs(u[k]);
-        b[k] = p.mass[std::size_t(k)] * (length > 0.0 ? u[k] / length : Complex(1.0));
-      }
+      for (Eigen::Index k = 0; k < b.size(); ++k) b[k] = p.mass[std::size_t(k)] * unitOf(u[k]);
+      if (pulls) b += time * pulls->sum;
       u = solver.solve(b, u, 1e-5);
     }
   }
@@ -228,21 +168,136 @@ Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
   return p.turns == 1 ? Result<Field>(std::move(u)) : spread(m, p, std::move(u));
 }
 
-Result<Field> steered(const Manifold& m, const TangentPlanes& p, const Vec3d& direction,
-                      double steering) {
-  // Smooth over 1/√100 of a component's extent at a steering of one half; a trace of smoothness
-  // stays at 1, to decide where the direction stands at right angles to the surface.
-  const double smooth = std::max(1.0 - steering, 1e-6);
-  const double pull = 100.0 * std::max(steering, 1e-6);
-  std::vector<double> diagonal(p.mass.size());
-  Field b = project(p, direction);
-  for (std::size_t i = 0; i < diagonal.size(); ++i) {
-    diagonal[i] = pull * p.mass[i];
-    b[Eigen::Index(i)] *= diagonal[i];
-  }
-  const ConnectionSolver solver(laplacian(m, p, smooth, diagonal));
+/// The smoothest field under its pulls; every component has some.
+Result<Field> drawn(const Manifold& m, const TangentPlanes& p, const Pulls& pulls) {
+  const ConnectionSolver solver(laplacian(m, p, 1.0, pulls.strength));
   if (!solver.ok()) return report::failed(kNoMemory);
-  return solver.solve(b, project(p, direction), 1e-7);
+  Field guess = pulls.sum;
+  for (Eigen::Index i = 0; i < guess.size(); ++i) {
+    const double strength = pulls.strength[std::size_t(i)];
+    guess[i] = strength > 0.0 ? guess[i] / strength : Complex(0.0);
+  }
+  return solver.solve(pulls.sum, guess, 1e-7);
+}
+
+/// Of a direction that is given over the surface. Smooth over 1/√100 of a component's extent at a
+/// steering of one half; a trace of smoothness stays at 1, to decide where the direction stands at
+/// right angles to the surface.
+double steeringPull(double steering) {
+  return 100.0 * std::max(steering, 1e-6) / std::max(1.0 - steering, 1e-6);
+}
+
+/// Of the guides at the mesh's vertices that are one vertex of the manifold, their weighted mean.
+std::vector<Guide> guidesOf(const scene::Mesh& mesh, const Manifold& m,
+                            const std::vector<Guide>& guides) {
+  std::vector<Guide> result(m.vertexCount());
+  std::vector<float> counts(m.vertexCount(), 0.0f);
+  for (std::uint32_t c = 0; c < m.vertexOfCorner.size(); ++c) {
+    if (m.vertexOfCorner[c] == kNone) continue;
+    const Guide& from = guides[mesh.triangles[c / 3][c % 3]];
+    Guide& to = result[m.vertexOfCorner[c]];
+    const float length = from.direction.norm();
+    if (length > 0.0f) to.direction += from.weight / length * from.direction;
+    to.weight += from.weight;
+    counts[m.vertexOfCorner[c]] += 1.0f;
+  }
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (counts[i] > 0.0f) result[i].weight = std::clamp(result[i].weight / counts[i], 0.0f, 1.0f);
+  return result;
+}
+
+/// Draws the field along the features or across them, as it would rather: first those for which it
+/// says so, and then, by what it has become, others. Where it stays undecided nothing is drawn:
+/// about the corners of a box a field of one or two directions has to turn somewhere, and does so
+/// at edges that one side wants along and the other across. Counts what is drawn.
+Result<Field> aligned(const Manifold& m, const TangentPlanes& p, std::vector<Feature> features,
+                      const std::vector<Guide>& guides, Field base, Pulls& pulls,
+                      std::uint32_t& count) {
+  // For each metre, on a surface of 1 m²: the field is off by as much as it turns over 1/30 m.
+  constexpr double kFeaturePull = 30.0;
+  const double decided = 0.35 * p.turns;  // some 30° from either way
+  std::stable_sort(features.begin(), features.end(),
+                   [](const Feature& a, const Feature& b) { return a.length > b.length; });
+  while (!features.empty()) {
+    const std::uint32_t before = count;
+    std::vector<Feature> undecided;
+    const auto draw = [&](const Feature& feature, int quarters) {
+      ++count;
+      for (const Feature::End& end : feature.ends) {
+        const double extent = std::sqrt(p.area[m.componentOfVertex[end.vertex]]);
+        const double free = guides.empty() ? 1.0 : 1.0 - double(guides[end.vertex].weight);
+        if (extent > 0.0)
+          pulls.add(end.vertex, kFeaturePull * free * end.share / extent,
+                    std::polar(1.0, p.turns * (end.angle + 0.5 * kPi * quarters)));
+      }
+    };
+    for (Feature& feature : features) {
+      const Choice choice = choiceOf(feature, p, base);
+      if (choice.margin >= decided)
+        draw(feature, choice.quarters);
+      else
+        undecided.push_back(std::move(feature));
+    }
+    // Where it says nothing at all, the longest goes first.
+    if (count == 0) {
+      draw(undecided.front(), choiceOf(undecided.front(), p, base).quarters);
+      undecided.erase(undecided.begin());
+    }
+    if (count == before) break;
+    Result<Field> next = drawn(m, p, pulls);
+    if (!next) return next;
+    base = std::move(*next);
+    features = std::move(undecided);
+  }
+  return base;
+}
+
+/// What is wanted of a field, and how well it lies.
+Result<Field> solved(const scene::Mesh& mesh, const Manifold& m, const TangentPlanes& p,
+                     const TangentFieldOptions& options, TangentField& report) {
+  const double steering = double(options.steering);
+  const bool steers = options.direction && steering > 0.0;
+  const std::vector<Guide> guides =
+      options.guides.empty() ? std::vector<Guide>() : guidesOf(mesh, m, options.guides);
+  Pulls pulls(p.mass.size());
+  bool guided = false;
+  if (steers) {
+    const Field wanted = project(p, options.direction->cast<double>().normalized());
+    for (std::size_t i = 0; i < p.mass.size(); ++i) {
+      const double free = guides.empty() ? 1.0 : 1.0 - double(guides[i].weight);
+      pulls.add(i, std::max(free, 1e-6) * steeringPull(steering) * p.mass[i],
+                wanted[Eigen::Index(i)]);
+    }
+  }
+  for (std::size_t i = 0; i < guides.size(); ++i) {
+    if (!(guides[i].weight > 0.0f) || !(guides[i].direction.norm() > 0.0f)) continue;
+    guided = true;
+    pulls.add(i, double(guides[i].weight) * steeringPull(steering) * p.mass[i],
+              projectAt(p, i, guides[i].direction.cast<double>().normalized()));
+  }
+  Result<Field> base = Field();
+  if (!steers) {
+    base = smoothest(m, p);
+    if (!base) return base;
+    // Components that nothing else draws stay as they are; for others this is nothing.
+    for (std::size_t i = 0; i < p.mass.size(); ++i)
+      pulls.add(i, kHold * p.mass[i], unitOf((*base)[Eigen::Index(i)]));
+  }
+  if (steers || guided) {
+    base = drawn(m, p, pulls);
+    if (!base) return base;
+  }
+  if (options.align && !steers) {
+    std::vector<Feature> features = featuresOf(mesh, m, p);
+    report.featureLines = std::uint32_t(features.size());
+    if (!features.empty()) {
+      guided = true;
+      base =
+          aligned(m, p, std::move(features), guides, std::move(*base), pulls, report.alignedLines);
+      if (!base) return base;
+    }
+  }
+  return guided && p.turns > 1 ? spread(m, p, std::move(*base), &pulls) : base;
 }
 
 std::vector<TangentField::Singularity> singularities(const Manifold& m, const TangentPlanes& p,
@@ -291,21 +346,18 @@ Result<WithFindings<TangentField>> tangentField(const scene::Mesh& mesh,
   if (options.direction && !(options.direction->norm() > 0.0f && options.direction->allFinite())) {
     return report::badUsage("the direction that a tangent field follows must not be zero");
   }
+  if (!options.guides.empty() && options.guides.size() != mesh.positions.size())
+    return report::badUsage("there must be as many guides as vertices");
   const Manifold m = manifoldOf(mesh);
   if (m.vertexCount() == 0) {
     return report::badInput("the mesh " + mesh.name +
                             " has no triangle, so no surface to lay tangents on");
   }
-  TangentPlanes p = tangentPlanes(mesh, m);
-  p.turns = options.turns;
-  Result<Field> solved =
-      options.direction && options.steering > 0.0f
-          ? steered(m, p, options.direction->cast<double>().normalized(), options.steering)
-          : smoothest(m, p);
-  if (!solved) return solved.error();
-  const Field& u = *solved;
-
+  const TangentPlanes p = tangentPlanes(mesh, m, options.turns);
   TangentField field;
+  const Result<Field> made = solved(mesh, m, p, options, field);
+  if (!made) return made.error();
+  const Field& u = *made;
   field.singularities = singularities(m, p, u);
   const std::vector<Vec3> normals = normalsOf(mesh);
   field.tangents.resize(mesh.positions.size());

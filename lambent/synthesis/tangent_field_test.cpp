@@ -163,6 +163,147 @@ TEST(TangentField, SteeringFollowsTheDirection) {
   EXPECT_GT(before, 0.9999f);
 }
 
+/// A flat ring, radii 0.3 to 1: `around` × `across` quads.
+scene::Mesh flatRing(int around, int across) {
+  scene::Mesh mesh;
+  for (int j = 0; j <= across; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double radius = 0.3 + 0.7 * j / across, angle = 2.0 * kPi * i / around;
+      mesh.positions.emplace_back(float(radius * std::cos(angle)), 0.0f,
+                                  float(radius * std::sin(angle)));
+      mesh.normals.push_back(Vec3::UnitY());
+    }
+  const auto at = [&](int i, int j) { return std::uint32_t(j * around + i % around); };
+  for (int j = 0; j < across; ++j)
+    for (int i = 0; i < around; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return mesh;
+}
+
+/// cos of four times the angle between a tangent and a direction in its plane: 1 along or across.
+double crosswise(const Vec3& tangent, const Vec3& direction) {
+  const double c = double(tangent.dot(direction));
+  return 8.0 * (c * c * c * c - c * c) + 1.0;
+}
+
+TEST(TangentField, ByItselfFollowsTheBordersOfASheetWithAHole) {
+  const scene::Mesh ring = flatRing(48, 10);
+  for (const int turns : {1, 2, 4}) {
+    TangentFieldOptions options;
+    options.turns = turns;
+    const TangentField smooth = fieldOf(ring, options);
+    options.align = true;
+    const TangentField aligned = fieldOf(ring, options);
+    EXPECT_EQ(aligned.featureLines, 2u);
+    EXPECT_EQ(aligned.alignedLines, 2u);
+    EXPECT_TRUE(aligned.singularities.empty());
+    double before = 0.0, least = 1.0;
+    for (std::size_t v = 0; v < ring.positions.size(); ++v) {
+      const Vec3 outwards = ring.positions[v].normalized();
+      before += crosswise(smooth.tangents[v], outwards) / double(ring.positions.size());
+      least = std::min(least, crosswise(aligned.tangents[v], outwards));
+    }
+    EXPECT_LT(std::abs(before), 0.1) << "the same all over";
+    EXPECT_GT(least, 0.99) << turns;
+  }
+}
+
+TEST(TangentField, ByItselfFollowsTheCreasesOfACylinderWithCaps) {
+  const scene::Mesh cylinder = scene::cylinder(1.0f, 2.0f, 40, 10);
+  TangentFieldOptions options;
+  options.turns = 4;
+  options.align = true;
+  const TangentField field = fieldOf(cylinder, options);
+  EXPECT_EQ(field.featureLines, 2u);
+  EXPECT_EQ(field.alignedLines, 2u);
+  EXPECT_EQ(indexSum(field), 8);
+  double least = 1.0;
+  for (std::size_t v = 0; v < cylinder.positions.size(); ++v) {
+    const Vec3& p = cylinder.positions[v];
+    if (Vec2(p.x(), p.z()).norm() < 0.99f) continue;  // inside of a cap
+    least = std::min(least, crosswise(field.tangents[v], Vec3(-p.z(), 0, p.x()).normalized()));
+  }
+  EXPECT_GT(least, 0.9);
+}
+
+TEST(TangentField, ABoxHasItsSingularitiesAtItsCorners) {
+  const scene::Mesh box = scene::box(Vec3(1, 2, 3), 8);
+  TangentFieldOptions options;
+  options.align = true;
+  options.turns = 4;
+  const TangentField four = fieldOf(box, options);
+  EXPECT_EQ(four.featureLines, 12u);
+  EXPECT_EQ(indexSum(four), 8);
+  EXPECT_EQ(four.singularities.size(), 8u);
+  // Whatever the turns, courses are level with the edges.
+  for (const int turns : {1, 2, 4}) {
+    options.turns = turns;
+    const TangentField field = fieldOf(box, options);
+    double sum = 0.0;
+    for (const Vec3& t : field.tangents) {
+      const float most = t.cwiseAbs().maxCoeff();
+      sum += most > 0.98f;
+    }
+    EXPECT_GT(sum / double(field.tangents.size()), 0.7) << turns;
+  }
+}
+
+TEST(TangentField, WithoutCreasesAndBordersNothingIsAligned) {
+  const scene::Mesh mesh = scene::icosphere(1.0f, 3);
+  TangentFieldOptions options;
+  const TangentField smooth = fieldOf(mesh, options);
+  options.align = true;
+  const TangentField same = fieldOf(mesh, options);
+  EXPECT_EQ(same.featureLines, 0u);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    EXPECT_EQ(same.tangents[v], smooth.tangents[v]);
+}
+
+TEST(TangentField, GuidesAreFollowedWhereTheyWeighAndContinuedBetween) {
+  const scene::Mesh plane = scene::gridPlane(2.0f, 2.0f, 20, 20);
+  for (const int turns : {1, 2, 4}) {
+    TangentFieldOptions options;
+    options.turns = turns;
+    options.guides.resize(plane.positions.size());
+    // +x on the left, and 30° from it on the right: from one to the other evenly.
+    const Vec3 turned(std::cos(0.5236f), 0.0f, std::sin(0.5236f));
+    for (std::size_t v = 0; v < plane.positions.size(); ++v) {
+      if (plane.positions[v].x() < -0.99f) options.guides[v] = {Vec3(2, 0, 0), 1.0f};
+      if (plane.positions[v].x() > 0.99f) options.guides[v] = {turned, 1.0f};
+    }
+    const TangentField field = fieldOf(plane, options);
+    for (std::size_t v = 0; v < plane.positions.size(); ++v) {
+      const float angle = 0.5236f * (0.5f + 0.5f * plane.positions[v].x());
+      const Vec3 expected(std::cos(angle), 0.0f, std::sin(angle));
+      const float off = std::acos(std::clamp(field.tangents[v].dot(expected), -1.0f, 1.0f));
+      const float period = 2.0f * float(kPi) / float(turns);
+      EXPECT_LT(std::abs(std::remainder(off, period)), 0.03f) << turns;
+    }
+  }
+  TangentFieldOptions wrong;
+  wrong.guides.resize(3);
+  EXPECT_EQ(tangentField(plane, wrong).error().kind, ErrorKind::BadUsage);
+}
+
+TEST(TangentField, OneComponentsGuidesLeaveTheOthersAsTheyAre) {
+  const scene::Mesh parts[] = {scene::gridPlane(1, 1, 6, 6),
+                               scene::translated(scene::icosphere(1.0f, 3), Vec3(3, 0, 0))};
+  const scene::Mesh both = scene::merge(parts);
+  TangentFieldOptions options;
+  const TangentField smooth = fieldOf(both, options);
+  options.guides.resize(both.positions.size());
+  options.guides[10] = {Vec3(1, 0, 1), 1.0f};
+  const TangentField guided = fieldOf(both, options);
+  for (std::size_t v = 0; v < both.positions.size(); ++v) {
+    if (v < 49)
+      EXPECT_GT(guided.tangents[v].dot(Vec3(1, 0, 1).normalized()), 0.99f);
+    else
+      EXPECT_GT(guided.tangents[v].dot(smooth.tangents[v]), 0.9f) << v;
+  }
+}
+
 TEST(TangentField, FinsMirroredTrianglesAndSliversAreSurvivedAndTold) {
   scene::Mesh mesh = scene::icosphere(1.0f, 2);
   const auto fin = std::uint32_t(mesh.positions.size());

@@ -33,7 +33,8 @@ struct Patch {
 
 /// The matrices yield the light that arrives at the meso-structure, in the tangent frame (tangent,
 /// normal × tangent, normal) of each receiver; exit radiance is B(q, v) · (M L)
-/// (sloan2003biscale §3, §4.1, eq. 4). Without matrices of a kind, light is turned into the frame
+/// (sloan2003biscale §3, §4.1, eq. 4), times the mesh's base colour: texture and vertex colours
+/// are the tint of the patch, which varies its colours over the surface. Without matrices of a kind, light is turned into the frame
 /// and nothing hides it: so no matrices are ever held for Kind::Unshadowed. Receivers are vertices.
 template <class N>
 struct BiScale {

@@ -1,9 +1,10 @@
 // Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L),
-// sloan2003biscale eq. 4, as shade::LitPatch. Alpha is as sample_alpha.glsl says.
+// sloan2003biscale eq. 4, as shade::LitPatch, times the base colour. Alpha is as sample_alpha.glsl says.
 //
 // Before this text stand: #define LAMBENT_FILTER and LAMBENT_RELIEF, 0 or 1, and what these want: incident.glsl,
 // corner_weights.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl, rtt_look_up.glsl,
-// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, sample_alpha.glsl.
+// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, sample_alpha.glsl; base_color.glsl,
+// base_color_map.glsl, whose texture is at binding 0.
 
 struct Vertex {
   vec4 positionU;
@@ -17,7 +18,7 @@ struct Triangle {
 
 layout(std430, binding = 2) readonly buffer Triangles { Triangle triangles[]; };
 
-layout(binding = 0) uniform usamplerBuffer rtt;  // [level][y][x][view y][view x][group]
+layout(binding = 3) uniform usamplerBuffer rtt;  // [level][y][x][view y][view x][group]
 layout(binding = 1) uniform usampler2D idMap;
 #if LAMBENT_RELIEF
 layout(binding = 2) uniform samplerBuffer heights;  // [level][y][x][view y][view x]
@@ -34,6 +35,7 @@ uniform vec2 periodsPerMetre;  // with one
 in vec3 position;
 in vec4 normalU;
 in vec4 tangentV;
+in vec3 tint;  // of the vertices
 layout(location = 0) out vec4 radiance;
 
 #if !LAMBENT_INTERPOLATED
@@ -96,6 +98,7 @@ vec3 litRadiance() {
 }
 
 void main() {
-  vec3 sent = gl_FrontFacing ? litRadiance() : vec3(0.0);
+  vec3 sent = vec3(0.0);
+  if (gl_FrontFacing) sent = baseColor(tint, vec2(normalU.w, tangentV.w)) * litRadiance();
   radiance = vec4(sent, coveredAt(position, eye));
 }

@@ -14,11 +14,15 @@ struct Vertex {
 layout(std430, binding = 0) readonly buffer Vertices { Vertex vertices[]; };
 layout(std430, binding = 1) readonly buffer Light { vec4 light[]; };  // [vertex][LAMBENT_GROUPS]
 
+layout(std430, binding = 5) readonly buffer Tints { float tints[]; };  // [vertex][3], or none
+
 uniform mat4 clipFromWorld;
+uniform bool hasTints;
 
 out vec3 position;
 out vec4 normalU;
 out vec4 tangentV;
+out vec3 tint;
 #if LAMBENT_INTERPOLATED
 out vec4 incident[LAMBENT_GROUPS];
 #endif
@@ -28,6 +32,8 @@ void main() {
   position = vertex.positionU.xyz;
   normalU = vec4(vertex.normalV.xyz, vertex.positionU.w);
   tangentV = vec4(vertex.tangent.xyz, vertex.normalV.w);
+  int at = 3 * gl_VertexID;
+  tint = hasTints ? vec3(tints[at], tints[at + 1], tints[at + 2]) : vec3(1.0);
 #if LAMBENT_INTERPOLATED
 #define COPY(i) incident[i] = light[gl_VertexID * LAMBENT_GROUPS + i];
   LAMBENT_EACH_GROUP(COPY)

@@ -78,6 +78,85 @@ class Spread(BiScaleTest):
                                 "--preview", "--transfer", "shadowed", code=2)
         self.assertIn("--preview", refused.stderr)
 
+    def test_a_tint_varies_the_patchs_colours(self):
+        """A square under a picture whose left half is red and whose right half is blue."""
+        self.rtt("weave")
+        self.write("two.png", png(64, 32, lambda x, y: (255, 40, 40) if x < 32 else (40, 40, 255)))
+        self.write("quad.obj", quad_obj(((0.1, 0.1), (0.1, 0.9), (0.9, 0.9), (0.9, 0.1))))
+
+        def spread(*options):
+            summary = self.spread(*options, scene="quad.obj", output="quad.glb")
+            return summary["transfer"]["meshes"][0]["bi_scale"]["tint"]
+
+        self.assertEqual(spread(), {"texels": [0, 0], "vertex_colors": False})
+        for how in (("--map", "uv", "--tiles", "4x4"), ("--new-uvs",)):
+            tint = spread("--tint", "two.png", *how)
+            self.assertFalse(tint["vertex_colors"])
+            if "--map" in how:
+                self.assertEqual(tint["texels"], [64, 32])
+            self.assertIn("tinted by", self.run_tool("info", "quad.glb").stdout)
+            self.run_tool("shade", "quad.glb", "--light", "uniform", "-o", "quad.csv")
+            for row in read_csv(self.path("quad.csv")):
+                strong, weak = (row[6], row[8]) if row[0] < 0 else (row[8], row[6])
+                self.assertGreater(strong, 5 * weak, how)
+            for backend in ("gl", "cpu"):
+                self.run_tool("render", "quad.glb", "--light", "disc:30,45,40", "-o",
+                              backend + ".exr", "--size", "96", "--backend", backend)
+            self.run_tool("compare", "cpu.exr", "gl.exr", "--fail-above", "rmse=0.004")
+
+    def test_a_tint_of_its_own_is_what_it_was(self):
+        self.rtt()
+        self.write("quad.obj", "mtllib quad.mtl\nusemtl red\n" + quad_obj())
+        self.write("quad.mtl", "newmtl red\nKd 0.8 0.2 0.1\n")
+        summary = self.spread("--tint", "own", scene="quad.obj", output="quad.glb")
+        tint = summary["transfer"]["meshes"][0]["bi_scale"]["tint"]
+        self.assertEqual(tint, {"texels": [0, 0], "vertex_colors": True})
+        self.assertIn("tint-even", {finding["code"] for finding in summary["findings"]})
+
+    def test_a_tint_needs_something_to_lie_by(self):
+        self.rtt()
+        self.write("ball.obj", ball_obj())
+        self.write("red.png", png(8, 8, lambda x, y: (255, 0, 0)))
+        self.write("light.hdr", b"#?RADIANCE")
+        spread = ("synthesize", "ball.obj", "--rtt", "patch.rtt", "-o", "a.glb", "--tint")
+        self.refused(*spread, "red.png", says="texture coordinates")
+        self.refused(*spread, "none.png", says="none.png")
+        self.refused(*spread, "light.hdr", says=["light.hdr", "PNG"])
+
+    def test_it_lies_along_creases_unless_it_is_not_to(self):
+        self.rtt("bricks")
+        self.write("cube.obj", "\n".join(
+            [f"v {x} {y} {z}" for x in (0, 1) for y in (0, 1) for z in (0, 1)] +
+            [f"f {a} {b} {c} {d}" for a, b, c, d in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2),
+                                                    (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))]))
+        surface, = self.spread(scene="cube.obj", output="cube.glb")["surfaces"]
+        self.assertEqual(surface["feature_lines"], 12)
+        self.assertGreater(surface["aligned_lines"], 3)
+        self.assertIn("of 12 creases", self.run_tool(
+            "synthesize", "cube.obj", "--rtt", "patch.rtt", "-o", "cube.glb", "--preview").stdout)
+        for other in (("--no-align",), ("--direction", "0,1,0")):
+            surface, = self.spread(*other, scene="cube.obj", output="cube.glb")["surfaces"]
+            self.assertEqual(surface["feature_lines"], 0)
+
+    def test_curves_and_pictures_steer_it(self):
+        self.rtt("bricks")
+        self.write("quad.obj", quad_obj())
+        self.write("strokes.csv", "curve,x,y,z\na,-1,0,-1\na,-1,0,1\n")
+        self.write("strokes.obj", "v 9 9 9\nv 9 9 8\nl 1 2\n")
+        self.write("arrows.png", png(4, 4, lambda x, y: (255, 128, 128)))
+        self.write("grey.png", png(4, 4, lambda x, y: (128, 128, 128)))
+        for file, share, found in (("strokes.csv", 0.5, ()), ("strokes.obj", 0, {"steers-nothing"}),
+                                   ("arrows.png", 1, ()), ("grey.png", 0, {"steers-nothing"})):
+            summary = self.spread("--direction", file, scene="quad.obj", output="quad.glb")
+            self.assertEqual(summary["surfaces"][0]["guided"], share, file)
+            codes = {finding["code"] for finding in summary["findings"]}
+            self.assertEqual(codes & {"steers-nothing"}, set(found), file)
+        self.write("bad.csv", "a,0,0,0\na,1,0\n")
+        spread = ("synthesize", "quad.obj", "--rtt", "patch.rtt", "-o", "a.glb", "--direction")
+        self.refused(*spread, "bad.csv", says=["bad.csv, line 2", "curve,x,y,z"])
+        self.refused(*spread, "none.csv", says="none.csv")
+        self.refused(*spread, "0,1,0", "--map", "uv", code=USAGE, says="--map uv")
+
     def test_the_file_is_sound_to_other_tools(self):
         self.rtt()
         self.spread()

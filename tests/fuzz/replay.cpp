@@ -29,7 +29,7 @@ constexpr Named kTargets[] = {{"gltf", fuzz::gltf},     {"obj", fuzz::obj},
                               {"jpeg", fuzz::jpeg},     {"webp", fuzz::webp},
                               {"light", fuzz::light},   {"view", fuzz::view},
                               {"source", fuzz::source}, {"atmosphere", fuzz::atmosphere},
-                              {"uri", fuzz::uri}};
+                              {"uri", fuzz::uri},       {"curves", fuzz::curves}};
 
 /// As much as a fuzzer's process may hold; sanitizers keep what was freed for a while.
 constexpr long kMostKibibytes = 1 << 20;

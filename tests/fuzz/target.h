@@ -16,7 +16,8 @@ using Bytes = std::span<const std::byte>;
 using Target = void(Bytes);
 
 /// One for each reader, NAME_target.cpp.
-Target gltf, obj, ply, asset, rtt, exr, hdr, png, jpeg, webp, light, view, source, atmosphere, uri;
+Target gltf, obj, ply, asset, rtt, exr, hdr, png, jpeg, webp, light, view, source, atmosphere, uri,
+    curves;
 
 /// What reading one input may take, where the reader can be told: far below what a fuzzer's process
 /// may hold, so that what is not in the account shows.

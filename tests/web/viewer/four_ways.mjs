@@ -9,6 +9,7 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import {
   ballScene,
+  dyedScene,
   environmentExr,
   glossyScene,
   leafScene,
@@ -53,6 +54,7 @@ const scenes = {
   sheet: sheetScene,
   leaf: leafScene,
   ball: ballScene,
+  dyed: dyedScene,
 };
 for (const [name, bytes] of Object.entries(scenes)) put(`${name}-scene.glb`, bytes);
 put("light.exr", environmentExr);
@@ -61,9 +63,9 @@ const patch = ["--positions", "24x20", "--views", 4, "--directions", 128, "--bou
 const spread = ["--directions", 256, "--map-size", 256, "--vertices", 8000, "--mesh", "ball"];
 const bake = (scene, output, ...more) =>
   lambent("bake", `${scene}-scene.glb`, "-o", output, ...quick, ...more);
-const synthesize = (output, ...more) => {
+const synthesize = (scene, output, ...more) => {
   lambent("rtt", "weave", "-o", "patch.rtt", ...patch, "--quiet");
-  lambent("synthesize", "ball-scene.glb", "--rtt", "patch.rtt", "-o", output, ...spread, "--quiet",
+  lambent("synthesize", `${scene}-scene.glb`, "--rtt", "patch.rtt", "-o", output, ...spread, "--quiet",
     ...more);
 };
 
@@ -79,8 +81,15 @@ const kinds = {
   "cut-out-leaf": { make: (to) => bake("leaf", to) },
   "mirror-caustic": { make: (to) => bake("mirror", to) },
   "mirrors-between-colours": { make: (to) => bake("mirrors", to), bound: kMirrorsBound },
-  "bi-scale-id-map": { make: (to) => synthesize(to, "--patch-width", 0.5), relief: true },
-  "bi-scale-tiles": { make: (to) => synthesize(to, "--map", "uv", "--tiles", "9x6"), relief: true },
+  "bi-scale-id-map": { make: (to) => synthesize("ball", to, "--patch-width", 0.5), relief: true },
+  "bi-scale-tinted": {
+    make: (to) => synthesize("dyed", to, "--patch-width", 0.5, "--tint", "own"),
+    relief: true,
+  },
+  "bi-scale-tiles": {
+    make: (to) => synthesize("ball", to, "--map", "uv", "--tiles", "9x6"),
+    relief: true,
+  },
 };
 
 const q = (x, y, z, degrees) => {

@@ -109,6 +109,8 @@ export function buildPatch(
     filter: choices.filter,
     relief: heights !== null,
     idMap: biScale.idMap !== null,
+    map: source.texture,
+    colored: source.colored,
     surroundings,
   };
   return patchShaders(shape, { ...uniforms, ...around });

@@ -1,10 +1,10 @@
 // Exit radiance of a surface with meso-structure: B(q, v) · (M L), sloan2003biscale eq. 4, as
-// shaders/opengl/patch.frag.glsl and shade::LitPatch.
+// shaders/opengl/patch.frag.glsl and shade::LitPatch, times the base colour.
 //
 // Before this text stand: #define LAMBENT_FETCH, LAMBENT_FILTER, LAMBENT_RELIEF, LAMBENT_ID_MAP, each
 // 0 or 1, and what these want: incident.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl,
 // rtt_look_up.glsl, tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; the textures of the
-// first two; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0;
+// first two; base_color.glsl, with a map base_color_map.glsl; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0;
 // LAMBENT_CAPTURED 1 with captured.glsl, or 0.
 
 #include <common>
@@ -82,6 +82,7 @@ void main() {
 #else
     gl_FragColor.rgb = nearest(tiledPlace(tiles, point.uv));
 #endif
+    gl_FragColor.rgb *= baseColor(vertexColor, point.uv);
   }
 #if LAMBENT_AIR
   if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);

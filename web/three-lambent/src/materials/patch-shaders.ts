@@ -1,6 +1,8 @@
 // The shaders of surfaces with meso-structure.
 
-import { Vector2, type IUniform } from "three";
+import { Vector2, type IUniform, type Texture } from "three";
+import { baseColor } from "../generated/baseColor.js";
+import { baseColorMap } from "../generated/baseColorMap.js";
 import { incident } from "../generated/incident.js";
 import { incidentTexture } from "../generated/incidentTexture.js";
 import { patchFrag } from "../generated/patchFrag.js";
@@ -15,6 +17,7 @@ import { shadingPoint } from "../generated/shadingPoint.js";
 import { surfaceVert } from "../generated/surfaceVert.js";
 import { tangentFrame } from "../generated/tangentFrame.js";
 import { viewSquare } from "../generated/viewSquare.js";
+import { mapUniforms } from "./coverage.js";
 import { defines, flag, incidentDefines } from "./defines.js";
 import { responseMacros } from "./group-macros.js";
 import type { RelitShaders } from "./relit-material.js";
@@ -32,6 +35,9 @@ export interface PatchShape {
   /** Whether views are corrected by their heights, which filtering takes. */
   relief: boolean;
   idMap: boolean;
+  /** Its tint: a texture, and whether vertices have colours. */
+  map: Texture | null;
+  colored: boolean;
   surroundings: Surroundings;
 }
 
@@ -53,7 +59,8 @@ export function patchShaders(
     FETCH: flag(shape.fetch),
     UV: 1,
     TEXEL_UV: 0,
-    COLOR: 0,
+    MAP: flag(shape.map),
+    COLOR: flag(shape.colored),
     CAPTURED: flag(captured),
     NUMBERS: shape.numbers,
     FILTER: flag(shape.filter),
@@ -78,6 +85,8 @@ export function patchShaders(
     shadingNormal,
     shadingPoint,
     patchPlace,
+    baseColor,
+    shape.map ? baseColorMap : "",
     air,
     captured,
     patchFrag,
@@ -86,6 +95,10 @@ export function patchShaders(
   return {
     vertex: vertexParts.join("\n"),
     fragment: parts.join("\n"),
-    uniforms: { pixelWidth: { value: new Vector2() }, ...uniforms },
+    uniforms: {
+      pixelWidth: { value: new Vector2() },
+      ...(shape.map && mapUniforms(shape.map)),
+      ...uniforms,
+    },
   };
 }

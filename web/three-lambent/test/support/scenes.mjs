@@ -267,6 +267,22 @@ export const ballScene = sceneGlb(
   [matt([0.7, 0.7, 0.7])],
 );
 
+/** The same with colours of its own: a texture, and its vertices'. */
+export const dyedScene = sceneGlb(
+  [
+    ball({
+      name: "ball",
+      center: [0, 0.7, 0],
+      radius: 0.7,
+      material: 0,
+      colors: (n) => n.map((v) => 0.7 + 0.3 * v),
+    }),
+    floor({ half: 1.5, material: 1 }),
+  ],
+  [matt([0.9, 0.8, 0.7], 0), matt([0.7, 0.7, 0.7])],
+  [checker],
+);
+
 /** A sun, a red side, a blue side, a darker ground: different in every direction. */
 export const environmentExr = exr(64, 32, (x, y) => {
   const azimuth = 2 * Math.PI * ((x + 0.5) / 64 - 0.5);
