@@ -17,7 +17,8 @@ const std::string_view kScriptHelp =
   set NAME VALUE             exposure EV | tone filmic|linear | window none|hann:W|lanczos:W|minimal |
                              transfer best|unshadowed|shadowed|interreflected | lobe EXPONENT|own |
                              sun-shadow sharp|soft | air on|off, and wait | metres-per-unit METRES |
-                             samples N | shafts, macro, view-dependence, background, unlit, panel, expose-sky on|off
+                             samples N | shafts, macro, view-dependence, background, unlit, panel, expose-sky,
+                             field, singularities, seams, cuts (how a patch lies) on|off
   orbit AZIMUTH ELEVATION    walk around, in degrees
   pan X Y | zoom FACTOR | frame    X and Y in heights of the picture; FACTOR of the distance
   turn object|environment AXIS DEGREES     AXIS is x, y, z or X,Y,Z
