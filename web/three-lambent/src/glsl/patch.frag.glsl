@@ -23,6 +23,7 @@ uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of dista
 #if LAMBENT_ID_MAP
 uniform highp usampler2D idMap;
 uniform vec2 periodsPerMetre;
+uniform vec4 seams;  // radiance of the lines where pieces of the patch meet, 1; or 0: none
 
 ivec2 idMapSize() { return textureSize(idMap, 0); }
 uvec2 idMapTexel(ivec2 texel) { return texelFetch(idMap, texel, 0).rg; }
@@ -67,12 +68,16 @@ void main() {
 #if LAMBENT_ID_MAP
     vec3 gradientX = frame[0] * periodsPerMetre.x, gradientY = frame[1] * periodsPerMetre.y;
     vec2 texels = vec2(idMapSize());
-    Places places =
-        mappedPlaces(point.uv, vec2(dot(gradientX, alongU), dot(gradientY, alongU)) / texels.x,
-                     vec2(dot(gradientX, alongV), dot(gradientY, alongV)) / texels.y);
-    for (int i = 0; i < places.count; ++i)
-      gl_FragColor.rgb += places.share[i] * averaged(places.q[i], frame, toViewer, width, gradientX,
-                                                     gradientY);
+    vec2 qx = vec2(dot(gradientX, alongU), dot(gradientY, alongU)) / texels.x;
+    vec2 qy = vec2(dot(gradientX, alongV), dot(gradientY, alongV)) / texels.y;
+    if (seams.w > 0.0 && nearSeam(point.uv, qx, qy, uvx, uvy, kSeamReach)) {
+      gl_FragColor.rgb = seams.rgb;
+    } else {
+      Places places = mappedPlaces(point.uv, qx, qy);
+      for (int i = 0; i < places.count; ++i)
+        gl_FragColor.rgb += places.share[i] * averaged(places.q[i], frame, toViewer, width,
+                                                       gradientX, gradientY);
+    }
 #else
     gl_FragColor.rgb =
         averaged(tiledPlace(tiles, point.uv), frame, toViewer, width, gradientX, gradientY);
