@@ -57,7 +57,6 @@ void GlMarks::draw(GLuint framebuffer, int width, int height, const MarkView& vi
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_FALSE);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
   // Clip space is 2·w high, in which the second row says how long a metre is.
   const float upwards = view.clipFromSurface.row(1).head<3>().norm();
   program_.use();
