@@ -27,8 +27,7 @@ class GlMarks {
   static Result<GlMarks> make(std::span<const Mark> marks);
 
   /// Into a framebuffer that holds the surface: linear radiance where its depth is not nearer.
-  /// Alpha is 1 there, so that no air
-  /// stands before them; depth stays.
+  /// Alpha becomes 1, so that no air stands before them; depth stays.
   void draw(GLuint framebuffer, int width, int height, const MarkView& view) const;
 
  private:
