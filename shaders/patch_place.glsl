@@ -56,6 +56,38 @@ Places mappedPlaces(vec2 uv, vec2 alongX, vec2 alongY) {
   }
   return places;
 }
+
+const float kSeamReach = 0.75;  // pixels: half as wide as the lines that show seams
+
+// How far off a seam lies, along which two pieces of the patch meet, in texels of the id map: where
+// both have half a share it runs, and shares change by one over a texel. 1: there is none.
+float texelsToSeam(Places places) {
+  if (places.count < 2) return 1.0;
+  float first = 0.0, second = 0.0;
+  for (int i = 0; i < places.count; ++i) {
+    float share = places.share[i];
+    second = max(second, min(first, share));
+    first = max(first, share);
+  }
+  return 0.5 * (first - second);
+}
+
+// Whether a seam runs within `reach` pixels. uvRight, uvUp: what a pixel further is in uv.
+bool nearSeam(vec2 uv, vec2 alongX, vec2 alongY, vec2 uvRight, vec2 uvUp, float reach) {
+  vec2 texels = vec2(idMapSize());
+  float texelsAPixel = sqrt(abs(uvRight.x * uvUp.y - uvRight.y * uvUp.x) * texels.x * texels.y);
+  float off = texelsToSeam(mappedPlaces(uv, alongX, alongY));
+  if (off < min(reach * texelsAPixel, 0.5)) return true;
+  // Where texels are smaller than pixels, neighbouring places tell of it.
+  float beyond = texelsAPixel > 0.0 ? reach - 0.5 / texelsAPixel : 0.0;
+  if (beyond <= 0.0) return false;
+  for (int k = 0; k < 4; ++k) {
+    vec2 way = (k & 1) == 0 ? uvRight : uvUp;
+    vec2 beside = uv + (k < 2 ? beyond : -beyond) * way;
+    if (texelsToSeam(mappedPlaces(beside, alongX, alongY)) < 0.5) return true;
+  }
+  return false;
+}
 #endif
 
 vec2 tiledPlace(vec2 tiles, vec2 uv) { return fract(tiles * vec2(uv.x, -uv.y)); }

@@ -218,6 +218,16 @@ std::vector<Action> makeActions() {
        shown,
        "base colour alone, without light",
        [](S s, P) { s.stage.unlit = !s.stage.unlit; }},
+      {"L",
+       {GLFW_KEY_L, 0},
+       shown,
+       "how the patch lies: field, singularities, seams, cuts",
+       [](S s, P) {
+         if (!s.stage.possibilities().mesoStructure)
+           return s.notices.remark("this asset has no meso-structure");
+         s.stage.overlays =
+             s.stage.overlays.any() ? PatchOverlays() : PatchOverlays{true, true, true, true};
+       }},
       {"]", {GLFW_KEY_RIGHT_BRACKET, 0}, shown, "brighter by a third of a stop", expose(1.0 / 3)},
       {"[", {GLFW_KEY_LEFT_BRACKET, 0}, shown, "darker by a third of a stop", expose(-1.0 / 3)},
       {"T",

@@ -171,6 +171,14 @@ void Panels::drawAsset(Session& session) {
   const char* noMeso = "Only for assets with meso-structure (lambent synthesize)";
   switchFor("shadows on the relief", &state.macro, can.mesoStructure, noMeso);
   switchFor("relief changes with the view", &state.viewDependent, can.mesoStructure, noMeso);
+  PatchOverlays& overlays = session.stage.overlays;
+  label("how the patch lies (L)");
+  switchFor("field", &overlays.field, can.mesoStructure, noMeso);
+  ImGui::SameLine();
+  switchFor("singularities", &overlays.singularities, can.mesoStructure, noMeso);
+  switchFor("seams", &overlays.seams, can.mesoStructure, noMeso);
+  ImGui::SameLine();
+  switchFor("cuts", &overlays.cuts, can.mesoStructure, noMeso);
 
   ImGui::BeginDisabled(!can.glossy);
   bool own = state.lobe.has_value();

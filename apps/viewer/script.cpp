@@ -12,12 +12,15 @@ const std::string_view kScriptHelp =
   environment SOURCE         a light, and wait
   state FILE                 a saved state, and wait
   drop FILE…                 files, as if dropped on the window, and wait
-  sky KEY VALUE              of the sky that lights it, as the panel's sliders do, and wait: any key of
-                             SOURCE sky:…, as time 05:40, turbidity 4, model preetham
-  set NAME VALUE             exposure EV | tone filmic|linear | window none|hann:W|lanczos:W|minimal |
+  sky KEY VALUE              of the sky that lights it, as the panel's sliders do, and wait: any
+                             key of SOURCE sky:…, as time 05:40, turbidity 4, model preetham
+  set NAME VALUE             exposure EV | tone filmic|linear |
+                             window none|hann:W|lanczos:W|minimal |
                              transfer best|unshadowed|shadowed|interreflected | lobe EXPONENT|own |
                              sun-shadow sharp|soft | air on|off, and wait | metres-per-unit METRES |
-                             samples N | shafts, macro, view-dependence, background, unlit, panel, expose-sky on|off
+                             samples N | shafts, macro, view-dependence, background, unlit, panel,
+                             expose-sky on|off | field, singularities, seams, cuts on|off: how a
+                             patch lies
   orbit AZIMUTH ELEVATION    walk around, in degrees
   pan X Y | zoom FACTOR | frame    X and Y in heights of the picture; FACTOR of the distance
   turn object|environment AXIS DEGREES     AXIS is x, y, z or X,Y,Z
@@ -38,7 +41,8 @@ const std::string_view kScriptHelp =
   report                     one line of JSON: frame times, memory, OpenGL objects alive
   expect-error TEXT          the message that the last command left holds this; put it away
   expect-discs N             so many discs there are
-  await-dialog               wait until the desktop's file dialog has answered, and what it named is there
+  await-dialog               wait until the desktop's file dialog has answered, and what it named
+                             is there
   expect-question TEXT       the window itself asks for a file, and says this; leave it unanswered
   answer FILE                what would be typed there, and wait
   repeat N … end             do what is between N times

@@ -240,10 +240,15 @@ Status setAir(const std::string& name, const std::string& value,
 
 Status ScriptRunner::set(const std::string& name, const std::string& value, Scene& scene) {
   view::ViewState& state = scene.session.state;
+  PatchOverlays& overlays = scene.session.stage.overlays;
   const std::pair<const char*, bool*> switches[] = {{"macro", &state.macro},
                                                     {"view-dependence", &state.viewDependent},
                                                     {"background", &state.background},
                                                     {"unlit", &scene.session.stage.unlit},
+                                                    {"field", &overlays.field},
+                                                    {"singularities", &overlays.singularities},
+                                                    {"seams", &overlays.seams},
+                                                    {"cuts", &overlays.cuts},
                                                     {"panel", &scene.session.desk.panel},
                                                     {"expose-sky", &scene.session.desk.exposeSky}};
   for (const auto& [each, target] : switches) {

@@ -1,5 +1,9 @@
 #include "apps/viewer/stage.h"
 
+#include <cmath>
+
+#include <Eigen/LU>
+
 #include "lambent/scene/camera.h"
 #include "lambent/shade/showing.h"
 #include "lambent/tone/tone_curve.h"
@@ -32,6 +36,11 @@ Possibilities possibilitiesOf(const asset::Asset& asset) {
   return result;
 }
 
+/// What a picture of this state shows as radiance 1.
+float brightnessOf(const view::ViewState& state) {
+  return std::exp2(-float(state.exposure));
+}
+
 render::LiveView liveView(const view::ViewState& state, const scene::Camera& camera, bool unlit) {
   render::LiveView view;
   view.camera = camera;
@@ -51,6 +60,7 @@ Status Stage::show(LoadedAsset loaded, const view::ViewState& state) {
     if (Status s = surroundings_->attach(*renderer, *loaded.asset); !s) return s;
   renderer_.emplace(std::move(*renderer));
   asset_.emplace(std::move(loaded));
+  marks_.reset();
   possibilities_ = possibilitiesOf(*asset_->asset);
   box_ = scene::bounds(asset_->asset->scene);
   showing_ = view::showingOf(state);
@@ -151,19 +161,34 @@ Status Stage::addSample(const view::ViewState& state, const PixelSize& size, con
                         int samples) {
   render::LiveView view = liveView(state, camera(state, size), unlit);
   if (surroundings_) view.others = surroundings_->bounds();
+  if (overlays.seams) view.seams = brightnessOf(state) * kSeamColor;
   if (Status s = renderer_->add(view, place, samples); !s) return s;
+  if (overlays.any() && possibilities_.mesoStructure) {
+    if (!marks_) marks_.emplace(*asset_->asset);
+    render::MarkView marked{view.camera, renderer_->clipFromWorld() * view.worldFromAsset,
+                            brightnessOf(state)};
+    marked.camera.worldFromCamera = view.worldFromAsset.inverse() * view.camera.worldFromCamera;
+    if (Status s = marks_->draw(overlays, renderer_->framebuffer(), size, marked); !s) return s;
+  }
   return surroundings_ ? surroundings_->draw(*renderer_, size) : Status::ok();
 }
 
+bool Stage::sameFrame(const view::ViewState& state, const PixelSize& size) const {
+  if (!drawn_ || drawn_->size != size || drawn_->unlit != unlit || drawn_->overlays != overlays)
+    return false;
+  // Overlays have a radiance that the exposure takes back.
+  return sameRadiance(drawn_->state, state) &&
+         (!overlays.any() || drawn_->state.exposure == state.exposure);
+}
+
 Status Stage::draw(const view::ViewState& state, const PixelSize& size) {
-  bool moving = !drawn_ || drawn_->size != size || drawn_->unlit != unlit ||
-                !sameRadiance(drawn_->state, state);
+  bool moving = !sameFrame(state, size);
   if (surroundings_) {
     const Result<bool> moved = surroundings_->light(*renderer_, state, light_->world(state));
     if (!moved) return moved.error();
     moving = moving || *moved;
   }
-  drawn_ = Drawn{state, size, unlit};
+  drawn_ = Drawn{state, size, unlit, overlays};
   if (moving) {
     samples_ = 0;
     settled_ = false;

@@ -7,6 +7,7 @@
 
 #include "apps/viewer/gl_window.h"
 #include "apps/viewer/loader.h"
+#include "apps/viewer/patch_marks.h"
 #include "apps/viewer/surroundings.h"
 #include "lambent/image/image.h"
 #include "lambent/render/live_renderer.h"
@@ -64,6 +65,7 @@ class Stage {
   /// Nothing that was drawn counts any more.
   void restart() { drawn_.reset(); }
   bool unlit = false;  ///< the base colour alone, to measure against
+  PatchOverlays overlays;
 
  private:
   Status prepare(const view::ViewState& state, const PixelSize& size, bool moving);
@@ -76,9 +78,12 @@ class Stage {
     view::ViewState state;
     PixelSize size;
     bool unlit = false;
+    PatchOverlays overlays;
   };
+  bool sameFrame(const view::ViewState& state, const PixelSize& size) const;
   std::optional<LoadedAsset> asset_;  // before the renderer, which reads from it
   std::optional<render::LiveRenderer> renderer_;
+  std::optional<PatchMarks> marks_;  ///< of the asset, once some are wanted
   std::unique_ptr<Surroundings> surroundings_;
   Possibilities possibilities_;
   scene::Box box_;

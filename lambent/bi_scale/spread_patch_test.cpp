@@ -8,6 +8,7 @@
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
+#include "lambent/synthesis/patch_lay.h"
 #include "lambent/transfer/encode.h"
 #include "lambent/work/thread_limit.h"
 
@@ -17,11 +18,12 @@ namespace {
 /// Flat stripes and spots, B_i = ρ(u)/π Â_l y_i(+z).
 using BiScale = transfer::BiScale<transfer::Numbers>;
 
-transfer::EncodedRtt paintedRtt(int bands = 3) {
+/// Square with `height` 16: then a quarter turn leaves it as it is.
+transfer::EncodedRtt paintedRtt(int bands = 3, int height = 12) {
   transfer::SimulatedRtt rtt;
   rtt.name = "spots";
-  rtt.width = 16, rtt.height = 12, rtt.views = 2, rtt.bands = bands;
-  rtt.size = Vec2(0.16f, 0.12f);
+  rtt.width = 16, rtt.height = height, rtt.views = 2, rtt.bands = bands;
+  rtt.size = Vec2(0.16f, 0.01f * float(height));
   const sh::ZonalMoments cosine = sh::clampedCosine(bands);
   std::vector<double> y(std::size_t(bands) * bands);
   sh::evaluate(bands, Vec3d(0, 0, 1), y);
@@ -29,7 +31,7 @@ transfer::EncodedRtt paintedRtt(int bands = 3) {
   for (int i = 0; i < bands * bands; ++i)
     for (int row = 0; row < rtt.height; ++row)
       for (int x = 0; x < rtt.width; ++x) {
-        const double spot = std::sin(2 * kPi * x / 16) * std::sin(2 * kPi * row / 12);
+        const double spot = std::sin(2 * kPi * x / 16) * std::sin(2 * kPi * row / height);
         for (int view = 0; view < 4; ++view)
           for (int c = 0; c < 3; ++c)
             rtt.values[rtt.index(i, x, row, view % 2, view / 2) + c] =
@@ -134,6 +136,25 @@ TEST(SpreadPatch, WhatRepeatsItselfIsLaidAsALattice) {
   }
   EXPECT_GT(turned, 0u);
   EXPECT_GT(double(same + turned), 0.9 * double(source.size() - 642));
+}
+
+TEST(SpreadPatch, AnAssetAloneTellsHowItsPatchLies) {
+  for (const int turns : {2, 4}) {
+    SpreadOptions options = small();
+    options.layout = Layout::Lattice;
+    const auto spread = spreadPatch(scene::sceneOf(scene::icosphere(1, 4)),
+                                    paintedRtt(3, turns == 4 ? 16 : 12), options);
+    ASSERT_TRUE(spread) << spread.error().message;
+    const auto& [asset, reports, atlases] = spread->value;
+    ASSERT_EQ(reports[0].symmetry.turns, turns);
+    const auto lay = synthesis::patchLay(
+        asset.scene.meshes[0], std::get<BiScale>(asset.transfer.meshes[0]).tangents, 0.2f);
+    EXPECT_EQ(lay.turns, turns);
+    EXPECT_EQ(lay.singularities.size(), std::size_t(2 * turns)) << "as many as a sphere must have";
+    EXPECT_EQ(lay.singularities.size(), reports[0].singularities);
+    for (const auto& each : lay.singularities) EXPECT_EQ(each.index, 1);
+    EXPECT_GT(lay.cuts.size(), 0u);
+  }
 }
 
 TEST(SpreadPatch, ALatticeHasTheSamePlacesAtAnyThreadCount) {

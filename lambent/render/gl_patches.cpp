@@ -360,6 +360,8 @@ void GlPatches::draw(const GlView& view, const GlBaseColors& colors, GLuint vert
     program.set("tiles", biScale.patch.tiles().x(), biScale.patch.tiles().y());
     program.set("periodsPerMetre", 1.0f / (encoded.size.x() * biScale.patch.scale),
                 1.0f / (encoded.size.y() * biScale.patch.scale));
+    const Rgb seams = view.seams.value_or(Rgb::Zero());
+    program.set("seams", seams[0], seams[1], seams[2], view.seams ? 1.0f : 0.0f);
     program.set("levelCount", int(rtt.levels.size()));
     for (std::size_t k = 0; k < rtt.levels.size(); ++k)
       program.set(fmt::format("levels[{}]", k).c_str(), rtt.levels[k].width, rtt.levels[k].height,

@@ -14,14 +14,14 @@ Mat4 shifted(const Mat4& clipFromWorld, const Vec2& place, int width, int height
   return result;
 }
 
+}  // namespace
+
 Eigen::Vector4f eyeOf(const scene::Camera& camera) {
   const Eigen::Vector3f back = camera.worldFromCamera.block<3, 1>(0, 2).normalized();
   const Eigen::Vector3f position = camera.worldFromCamera.block<3, 1>(0, 3);
   if (camera.orthographicHalfHeight) return {back.x(), back.y(), back.z(), 0.0f};
   return {position.x(), position.y(), position.z(), 1.0f};
 }
-
-}  // namespace
 
 GlView viewThrough(const scene::Camera& camera, int width, int height, const scene::Box& box,
                    const Vec2& place, int samples) {

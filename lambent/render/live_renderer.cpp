@@ -288,6 +288,7 @@ Status LiveRenderer::add(const LiveView& view, const Vec2& place, int samples) {
   seen.environmentFromWorld =
       view.worldFromEnvironment.transpose() * view.worldFromAsset.topLeftCorner<3, 3>();
   seen.unlit = view.unlit;
+  seen.seams = view.seams;
   seen.sample = impl_->samples;
   seen.background = view.background;
   if (impl_->sun && impl_->air && impl_->air->shafts && !view.unlit)

@@ -26,7 +26,10 @@ struct LiveView {
   Mat3 worldFromEnvironment = Mat3::Identity();  ///< what mirrors and the background show is turned
   bool background = true;                        ///< the environment behind the asset; else black
   bool unlit = false;  ///< the base colour alone: what relighting costs is measured against it
-  scene::Box others;   ///< in the world: what else is drawn into the frame, for near and far
+  /// Of meso-structure: radiance of the lines, a pixel and a half wide, along which pieces of the
+  /// patch meet in its id map; none: they are not drawn. Not with Showing::filter off, nor unlit.
+  std::optional<Rgb> seams;
+  scene::Box others;  ///< in the world: what else is drawn into the frame, for near and far
 };
 
 /// Works in the OpenGL 4.5 context that is current when it is made (a window's, or a GlContext),

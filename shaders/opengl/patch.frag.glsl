@@ -31,6 +31,7 @@ uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of dista
 uniform bool viewDependent, hasIdMap;
 uniform vec2 tiles;            // without an id map: q = tiles (u, −v)
 uniform vec2 periodsPerMetre;  // with one
+uniform vec4 seams;            // radiance of the lines where pieces of the patch meet, 1; or 0: none
 
 in vec3 position;
 in vec4 normalU;
@@ -55,7 +56,8 @@ uvec4 rttWords(int first, int texel) { return texelFetch(rtt, first + texel); }
 ivec2 idMapSize() { return textureSize(idMap, 0); }
 uvec2 idMapTexel(ivec2 texel) { return texelFetch(idMap, texel, 0).rg; }
 
-vec3 litRadiance() {
+// uvRight, uvUp: what a pixel further is in uv.
+vec3 litRadiance(vec2 uvRight, vec2 uvUp) {
 #if !LAMBENT_INTERPOLATED
   ivec3 corner = ivec3(corners[3 * gl_PrimitiveID], corners[3 * gl_PrimitiveID + 1],
                        corners[3 * gl_PrimitiveID + 2]);
@@ -81,8 +83,10 @@ vec3 litRadiance() {
     x = frame[0] * periodsPerMetre.x;
     y = frame[1] * periodsPerMetre.y;
     vec2 texels = vec2(idMapSize());
-    places = mappedPlaces(uv, vec2(dot(x, u), dot(y, u)) / texels.x,
-                          vec2(dot(x, v), dot(y, v)) / texels.y);
+    vec2 alongX = vec2(dot(x, u), dot(y, u)) / texels.x;
+    vec2 alongY = vec2(dot(x, v), dot(y, v)) / texels.y;
+    if (seams.w > 0.0 && nearSeam(uv, alongX, alongY, uvRight, uvUp, kSeamReach)) return seams.rgb;
+    places = mappedPlaces(uv, alongX, alongY);
   } else {
     places.count = 1;
     places.q[0] = tiledPlace(tiles, uv);
@@ -91,14 +95,16 @@ vec3 litRadiance() {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < places.count; ++i)
     sum += places.share[i] * averaged(places.q[i], frame, toViewer, width, x, y);
-  return sum;
+  return baseColor(tint, uv) * sum;
 #else
-  return nearest(hasIdMap ? mappedPlace(uv) : tiledPlace(tiles, uv));
+  return baseColor(tint, uv) * nearest(hasIdMap ? mappedPlace(uv) : tiledPlace(tiles, uv));
 #endif
 }
 
 void main() {
+  vec2 uv = vec2(normalU.w, tangentV.w);
+  vec2 uvRight = dFdx(uv), uvUp = dFdy(uv);
   vec3 sent = vec3(0.0);
-  if (gl_FrontFacing) sent = baseColor(tint, vec2(normalU.w, tangentV.w)) * litRadiance();
+  if (gl_FrontFacing) sent = litRadiance(uvRight, uvUp);
   radiance = vec4(sent, coveredAt(position, eye));
 }

@@ -422,6 +422,34 @@ class View(ToolTest):
         self.assertTrue(self.path("ball-001.png").exists())
         self.assertEqual(read_png(self.path("help.png"))[:2], (560, 320))
 
+    def test_how_a_patch_lies_is_shown_and_hidden(self):
+        self.write("scene.obj", ball_obj())
+        self.run_tool("rtt", "weave", "-o", "weave.rtt", "--positions", "24x24", "--views", "4",
+                      "--directions", "128", "--bounces", "1", "-q")
+        self.run_tool("synthesize", "scene.obj", "--rtt", "weave.rtt", "-o", "woven.glb",
+                      "--directions", "128", "--map-size", "256", "-q")
+        overlays = ("field", "singularities", "cuts")
+        each = "".join(f"set {name} on\nscreenshot {name}.png\nset {name} off\n"
+                       for name in overlays)
+        self.script(f"""
+            set panel off
+            set samples 2
+            wait 1
+            screenshot bare.png
+            {each}
+            key L
+            screenshot all.png
+            key L
+            screenshot again.png
+            save-state state.json
+            """, "woven.glb", "uniform:0.5")
+        difference = lambda a, b: mean_difference(self.path(a + ".png"), self.path(b + ".png"))
+        self.assertEqual(difference("bare", "again"), 0.0)
+        for name in overlays:
+            self.assertGreater(difference("bare", name), 0.02, name)
+            self.assertGreater(difference("bare", "all"), difference("bare", name))
+        self.assertNotIn("field", self.path("state.json").read_text())
+
     def test_what_is_dragged_follows_the_hand(self):
         """Seen along −z, from a distance of 4."""
         self.bake()

@@ -265,5 +265,39 @@ TEST(PatchPlaces, AreTheLibrarys) {
   EXPECT_GT(counts[2], kMany / 50);
 }
 
+// Two pieces that meet between two columns of texels: a line as wide as it should be, whatever the
+// size of a pixel.
+TEST(Seams, LieWhereThePatchJumps) {
+  constexpr int kBefore = 9;  // texels left of the seam
+  const Vec2 alongX(0.013f, -0.004f), alongY(0.006f, 0.011f);
+  transfer::IdMap map{19, 23, {}};
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      const Vec2 q =
+          float(x) * alongX + float(y) * alongY + Vec2::Constant(x < kBefore ? 0.4f : 0.7f);
+      for (int c = 0; c < 2; ++c)
+        map.ids.push_back(std::uint16_t(int((q[c] - std::floor(q[c])) * 65536.0f) & 0xffff));
+    }
+  floats::idMap = &map;
+  math::Random random(5, 0);
+  for (const float pixel : {0.02f, 0.3f, 0.66f, 1.0f, 2.0f}) {  // texels
+    const Vec2 right(pixel / float(map.width), 0), up(0, pixel / float(map.height));
+    int seen = 0;
+    for (int i = 0; i < kMany; ++i) {
+      const float off = between(random, -5, 5);
+      const Vec2 uv((float(kBefore) + off) / float(map.width), between(random, 0.2f, 0.8f));
+      const float reach = floats::kSeamReach * pixel;
+      if (std::abs(std::abs(off) - reach) < 1e-3f) continue;
+      const bool near = floats::nearSeam(from(uv), from(alongX), from(alongY), from(right),
+                                         from(up), floats::kSeamReach);
+      ASSERT_EQ(near, std::abs(off) < reach) << off << " texels off, " << pixel << " a pixel";
+      seen += near;
+    }
+    if (pixel > 0.1f) {
+      EXPECT_GT(seen, kMany / 50);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lambent::glsl

@@ -45,6 +45,7 @@ export function facts(viewer: Viewer, environment: number, past: History): Panel
     playing: viewer.playing,
     still: stillness().matches ? "This browser asks for reduced motion." : null,
     unlit: viewer.unlit,
+    overlays: viewer.overlays,
     undoes: past.undoes,
     redoes: past.redoes,
     sky: {

@@ -20,6 +20,7 @@ const kKeys: [string, string][] = [
   ["0 1 2 3", "what light does: best, bare, shadows, bounces"],
   ["M", "shadows on the relief"],
   ["V", "relief changes with the view"],
+  ["L", "how the patch lies: field, singularities, seams, cuts"],
   ["U", "base colour alone, without light"],
   ["E, Shift + E", "next environment, previous one"],
   ["N", "next asset"],

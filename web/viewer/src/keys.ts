@@ -1,4 +1,5 @@
 // Keys → what they do; the list in help.ts says the same to people.
+import { anyOf } from "./overlays";
 import { pressOnPicture } from "./picture_keys";
 import type { Viewer } from "./viewer";
 import { kTransfers, type ViewState } from "./view_state";
@@ -23,6 +24,7 @@ export function listenToKeys(viewer: Viewer, actions: KeyActions): void {
     " ": () => viewer.play(!viewer.playing),
     a: () => viewer.play(!viewer.playing),
     u: () => viewer.setUnlit(!viewer.unlit),
+    l: () => viewer.setOverlay(null, !anyOf(viewer.overlays)),
     m: () => viewer.change((view) => (view.macro = !view.macro)),
     v: () => viewer.change((view) => (view.viewDependent = !view.viewDependent)),
     e: () => nextEnvironment(1),

@@ -8,7 +8,9 @@ import { Help } from "./help";
 import { History } from "./history";
 import { environmentOf, listenToKeys } from "./keys";
 import type { Grip } from "./orbit";
+import type { Overlay } from "./overlays";
 import { Panel, type PanelFacts } from "./panel";
+import { PatchMarks } from "./patch_marks";
 import { save } from "./save";
 import { Session } from "./session";
 import { SkyMap } from "./sky_map";
@@ -58,6 +60,7 @@ function start(): void {
       viewer.change((view) => Object.assign(view.discs[disc]!, { azimuth, elevation })),
     turn: (radians) => viewer.turnLight(radians, 0),
   });
+  viewer.makeMarks = (asset) => new PatchMarks(asset);
   viewer.framed.add((now, work) => {
     if (work !== null) graph.add(now, work);
     sky.show(viewer.view, viewer.current.environment, viewer.disc);
@@ -106,6 +109,7 @@ function start(): void {
     redo: () => void past.redo(),
     play: (on: boolean) => viewer.play(on),
     setUnlit: (on: boolean) => viewer.setUnlit(on),
+    setOverlay: (which: Overlay, on: boolean) => viewer.setOverlay(which, on),
     saveView: () =>
       save(new Blob([viewToJson(viewer.view)], { type: "application/json" }), "view.json"),
     copyLink: () => void session.copyLink(),

@@ -4,6 +4,7 @@ import { button, h, segments, select, slider, toggle } from "./dom";
 import { DiscControls } from "./disc_controls";
 import type { FrameGraph } from "./frame_graph";
 import { SkyControls, type SkyActions, type SkyFacts } from "./sky_controls";
+import { kOverlays, type Overlay, type Overlays } from "./overlays";
 import type { SkyMap } from "./sky_map";
 import type { ViewState } from "./view_state";
 
@@ -24,6 +25,7 @@ export interface PanelActions extends SkyActions {
   redo(): void;
   play(on: boolean): void;
   setUnlit(on: boolean): void;
+  setOverlay(which: Overlay, on: boolean): void;
   saveView(): void;
   copyLink(): void;
   savePicture(): void;
@@ -41,6 +43,7 @@ export interface PanelFacts {
   /** Why nothing goes by itself; null if it may. */
   still: string | null;
   unlit: boolean;
+  overlays: Overlays;
   undoes: boolean;
   redoes: boolean;
   sky: SkyFacts;
@@ -59,6 +62,13 @@ export interface PanelFacts {
 const kSections = ["Object", "Light", "Sky", "Surface", "Picture"] as const;
 type Section = (typeof kSections)[number];
 const kMostLobe = 200;
+const kOverlayWords: Record<Overlay, [string, string]> = {
+  field: ["Field", "Strokes along the patch's first axis, thinner towards it"],
+  singularities: ["Singularities",
+    "Where the field turns about a point: red, or blue where it turns backwards"],
+  seams: ["Seams", "Lines along which pieces of the patch meet"],
+  cuts: ["Cuts", "Borders of the charts that the surface was laid out in"],
+};
 
 export class Panel {
   readonly element: HTMLElement;
@@ -271,6 +281,9 @@ export class Panel {
       (on) => actions.change((view) => (view.viewDependent = on)));
     const unlit = toggle("Base colour alone", "Albedo, without light (U)", (on) =>
       actions.setUnlit(on));
+    const overlays = kOverlays.map((each) =>
+      toggle(kOverlayWords[each][0], `${kOverlayWords[each][1]} (L: all of them)`, (on) =>
+        actions.setOverlay(each, on)));
     const ownLobe = toggle("Gloss of my own", "Another exponent of the glossy lobe", (on) =>
       actions.change((view) => (view.lobe = on ? 16 : null)));
     // Exponents as the ear hears loudness: equal steps are equal ratios.
@@ -304,11 +317,16 @@ export class Panel {
       ownLobe.forbid(facts.noLobe);
       lobe.set(Math.log2(Math.max(view.lobe ?? 16, 1)));
       lobe.element.hidden = view.lobe === null;
+      kOverlays.forEach((each, i) => {
+        overlays[i]!.set(facts.overlays[each]);
+        overlays[i]!.forbid(facts.noPatch);
+      });
       unlit.set(facts.unlit);
       unlit.forbid(facts.noLight);
     });
     return this.section("Surface", transfer.element, sun.element, macro.element, views.element,
-      ownLobe.element, lobe.element, unlit.element, reasons);
+      ownLobe.element, lobe.element, unlit.element,
+      h("h3", {}, "How the patch lies"), ...overlays.map(({ element }) => element), reasons);
   }
 
   private pictureSection(graph: FrameGraph): HTMLElement {

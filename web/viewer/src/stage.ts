@@ -32,6 +32,9 @@ import { Accumulator } from "./accumulator";
 import { directionFromAzimuthElevation, kRadians } from "./directions";
 import type { LoadedEnvironment } from "./environments";
 import type { LoadedAsset } from "./load_asset";
+import {
+  anyOf, kNoOverlays, kSeamColor, type MakeMarks, type Marks, type Overlays,
+} from "./overlays";
 import type { LookAt, Triple, ViewState } from "./view_state";
 
 /** Frames of a new picture that are added up before they take the place of the last one. */
@@ -47,6 +50,11 @@ export class Stage {
   air: LambentAir | null = null;
 
   private readonly scene = new Scene();
+  /** Of how the asset's patch lies; null: nobody has asked for any. */
+  marks: Marks | null = null;
+  private overlays = kNoOverlays;
+  /** Of a colour that the picture is to show as it is. */
+  private brightness = 1;
   private readonly perspective = new PerspectiveCamera();
   private readonly orthographic = new OrthographicCamera();
   private readonly background = new EnvironmentBackground();
@@ -95,6 +103,9 @@ export class Stage {
     if (this.loaded !== null) {
       this.background.setAsset(null);
       this.scene.remove(this.loaded.root);
+      if (this.marks) this.scene.remove(this.marks.object);
+      this.marks?.dispose();
+      this.marks = null;
       this.loaded.asset?.dispose();
       this.loaded.plain?.dispose(this.scene);
     }
@@ -153,7 +164,14 @@ export class Stage {
   }
 
   /** What a view says about the object and its light. Costs no time that grows with the asset. */
-  apply(view: ViewState, unlit = false): void {
+  apply(
+    view: ViewState,
+    unlit = false,
+    overlays: Overlays = kNoOverlays,
+    makeMarks: MakeMarks | null = null,
+  ): void {
+    this.overlays = overlays;
+    this.brightness = 2 ** -view.exposure;
     this.tone.exposure = view.exposure;
     this.tone.curve = view.tone;
     const discs: Disc[] = view.discs.map((disc) => ({
@@ -206,11 +224,16 @@ export class Stage {
     asset.lobeExponent = view.lobe;
     asset.softLobes = window === "auto";
     asset.unlit = unlit;
+    const [red, green, blue] = kSeamColor.map((each) => each * this.brightness) as Triple;
+    asset.seams = overlays.seams ? [red, green, blue] : null;
     asset.setLight(this.light);
     asset.setSun(view.sunShadow === "sharp" ? sunOf(allDiscs) : null, weights);
     asset.setEnvironment(seen);
     asset.setAir(view.air && this.airOfSky(), { ...view.air, rotation: turn });
     this.background.setAsset(asset);
+    if (this.marks || !makeMarks || !anyOf(overlays) || !asset.kinds.has("bi-scale")) return;
+    this.marks = makeMarks(asset);
+    this.scene.add(this.marks.object);
   }
 
   private airOfSky(): AerialPerspective | null {
@@ -251,6 +274,7 @@ export class Stage {
       asset.samples = samples;
       asset.sample = this.accumulator.count;
       asset.update(this.renderer, camera);
+      this.marks?.show(this.overlays, this.brightness, width, height);
     }
     this.renderer.setRenderTarget(this.accumulator.frame);
     this.renderer.clear();

@@ -9,6 +9,7 @@ import { Library, type Opened } from "./library";
 import { freeAsset, loadAsset } from "./load_asset";
 import { LoadingBar, messageOf, Messages } from "./messages";
 import { orbit, pan, turnEnvironment, turnObject, zoom, type Grip } from "./orbit";
+import { kNoOverlays, kOverlays, type MakeMarks, type Overlay } from "./overlays";
 import { progressiveRead } from "./read_url";
 import { SkyLight } from "./sky_light";
 import { Stage } from "./stage";
@@ -32,6 +33,10 @@ export class Viewer {
   grip: Grip = "camera";
   playing = false;
   unlit = false;
+  /** What is shown of how a patch lies. */
+  overlays = kNoOverlays;
+  /** What draws them; null: seams alone are shown. */
+  makeMarks: MakeMarks | null = null;
   /** Called after anything changed that controls show. */
   changed: () => void = () => {};
   /** Called after each frame; as {@link Picture.drawn} says. */
@@ -45,7 +50,7 @@ export class Viewer {
       return this.playing;
     },
     drawMoving: () => {
-      this.stage.apply(this.view, this.unlit);
+      this.stage.apply(this.view, this.unlit, this.overlays, this.makeMarks);
       this.stage.drawMoving(this.camera());
     },
     refine: () => this.stage.refine(this.camera(), this.view.samples),
@@ -138,6 +143,7 @@ export class Viewer {
     this.view.environment.source = source;
     this.disc = -1;
     this.unlit = false;
+    this.overlays = kNoOverlays;
     this.sky.expose(this.view);
     this.play(false);
   }
@@ -156,6 +162,12 @@ export class Viewer {
   /** Base colours instead of light: to see what the light does. */
   setUnlit(on: boolean): void {
     this.unlit = on;
+    this.touch();
+  }
+  /** Shows how a patch lies, in one of the ways there are; all at once, or none, if none is named. */
+  setOverlay(which: Overlay | null, on: boolean): void {
+    const changed = (which === null ? kOverlays : [which]).map((each) => [each, on]);
+    this.overlays = { ...this.overlays, ...Object.fromEntries(changed) };
     this.touch();
   }
   addDisc(): void {

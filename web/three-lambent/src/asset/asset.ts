@@ -13,7 +13,7 @@ import {
 import { FullScreenPass } from "../gpu/full-screen-pass.js";
 import { checkRenderer, isNodeRenderer, type AnyRenderer } from "../gpu/renderer.js";
 import { checkLight } from "../light/check.js";
-import type { Disc, LambentLight, QuaternionLike } from "../light/light.js";
+import type { Disc, LambentLight, QuaternionLike, Rgb } from "../light/light.js";
 import { hasGrain } from "../materials/coverage.js";
 import { checkEnvironment, type Environment } from "../materials/environment.js";
 import type { AirMode } from "../materials/surroundings.js";
@@ -66,6 +66,11 @@ export class LambentAsset {
    * environment alone, as they do on devices that cannot draw into half floats. Default 256.
    */
   mirrorSize = 256;
+  /**
+   * Radiance of lines, a pixel and a half wide, along which pieces of a patch meet on a surface with
+   * meso-structure: to see how it was laid. Shown with {@link filter}. Default null: none.
+   */
+  seams: Rgb | null = null;
   /** The base colour alone, which costs what any unlit mesh costs. Default false. */
   unlit = false;
   /** Pictures of a pixel that the caller adds up: filters are as much narrower. Default 1. */
@@ -313,6 +318,7 @@ export class LambentAsset {
       filter: this.filter,
       lobeExponent: this.lobeExponent,
       softLobes: this.softLobes,
+      seams: this.seams,
       unlit: this.unlit,
       samples: this.samples,
       sample: this.sample,

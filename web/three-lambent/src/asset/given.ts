@@ -22,6 +22,7 @@ const kSettings = [
   "lobeExponent",
   "softLobes",
   "mirrorSize",
+  "seams",
   "unlit",
   "samples",
   "sample",

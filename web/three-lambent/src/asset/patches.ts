@@ -6,6 +6,7 @@ import {
   NearestFilter,
   RGIntegerFormat,
   UnsignedShortType,
+  Vector4,
   type IUniform,
   type WebGLRenderer,
 } from "three";
@@ -96,6 +97,7 @@ export function buildPatch(
     uniforms.idMap = { value: idMap };
     const each = rtt.size.map((size) => 1 / (size * biScale.scale));
     uniforms.periodsPerMetre = { value: Float32Array.from(each) };
+    uniforms.seams = { value: new Vector4() };
   } else {
     uniforms.tiles = { value: Float32Array.from(biScale.tiles) };
   }

@@ -24,6 +24,7 @@ import {
   type LightPass,
   type MatrixShape,
 } from "../gpu/transfer-pass.js";
+import type { Rgb } from "../light/light.js";
 import { coverageUniforms, hasGaps, type Coverage } from "../materials/coverage.js";
 import { incidentGroups } from "../materials/group-macros.js";
 import { RelitMaterial, type RelitNodes, type RelitShaders } from "../materials/relit-material.js";
@@ -47,6 +48,8 @@ export interface Choices {
   lobeExponent: number | null;
   softLobes: boolean;
   unlit: boolean;
+  /** Radiance of the lines where pieces of a patch meet. */
+  seams: Rgb | null;
   samples: number;
   sample: number;
   /** There is a Sun whose shadows are sharp. */
@@ -176,9 +179,10 @@ export class RelitMesh {
       }
       this.built = key;
     }
-    const { viewDependent, veil } = this.material.uniforms;
+    const { viewDependent, seams, veil } = this.material.uniforms;
     this.material.shaders!.samples = choices.samples;
     if (viewDependent) viewDependent.value = choices.viewDependent;
+    if (seams) seams.value.set(...(choices.seams ?? [0, 0, 0]), choices.seams ? 1 : 0);
     if (veil) veil.value[1] = choices.sample;
     return fresh;
   }

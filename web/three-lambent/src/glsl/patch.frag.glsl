@@ -23,6 +23,7 @@ uniform vec2 pixelWidth;  // of a sub-sample, in metres: for each metre of dista
 #if LAMBENT_ID_MAP
 uniform highp usampler2D idMap;
 uniform vec2 periodsPerMetre;
+uniform vec4 seams;  // radiance of the lines where pieces of the patch meet, 1; or 0: none
 
 ivec2 idMapSize() { return textureSize(idMap, 0); }
 uvec2 idMapTexel(ivec2 texel) { return texelFetch(idMap, texel, 0).rg; }
@@ -62,17 +63,23 @@ void main() {
     mat3 frame = worldFromPatch(point.normal, tangent_);
     vec3 toViewer = point.toViewer * frame;
     chooseViews(viewDependent ? toViewer : vec3(0.0, 0.0, 1.0));
+    vec3 reflected = baseColor(vertexColor, point.uv);
 #if LAMBENT_FILTER
     float width = pixelWidth.x * point.distance + pixelWidth.y;
 #if LAMBENT_ID_MAP
     vec3 gradientX = frame[0] * periodsPerMetre.x, gradientY = frame[1] * periodsPerMetre.y;
     vec2 texels = vec2(idMapSize());
-    Places places =
-        mappedPlaces(point.uv, vec2(dot(gradientX, alongU), dot(gradientY, alongU)) / texels.x,
-                     vec2(dot(gradientX, alongV), dot(gradientY, alongV)) / texels.y);
-    for (int i = 0; i < places.count; ++i)
-      gl_FragColor.rgb += places.share[i] * averaged(places.q[i], frame, toViewer, width, gradientX,
-                                                     gradientY);
+    vec2 qx = vec2(dot(gradientX, alongU), dot(gradientY, alongU)) / texels.x;
+    vec2 qy = vec2(dot(gradientX, alongV), dot(gradientY, alongV)) / texels.y;
+    if (seams.w > 0.0 && nearSeam(point.uv, qx, qy, uvx, uvy, kSeamReach)) {
+      gl_FragColor.rgb = seams.rgb;
+      reflected = vec3(1.0);  // a mark is not tinted
+    } else {
+      Places places = mappedPlaces(point.uv, qx, qy);
+      for (int i = 0; i < places.count; ++i)
+        gl_FragColor.rgb += places.share[i] * averaged(places.q[i], frame, toViewer, width,
+                                                       gradientX, gradientY);
+    }
 #else
     gl_FragColor.rgb =
         averaged(tiledPlace(tiles, point.uv), frame, toViewer, width, gradientX, gradientY);
@@ -82,7 +89,7 @@ void main() {
 #else
     gl_FragColor.rgb = nearest(tiledPlace(tiles, point.uv));
 #endif
-    gl_FragColor.rgb *= baseColor(vertexColor, point.uv);
+    gl_FragColor.rgb *= reflected;
   }
 #if LAMBENT_AIR
   if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);
