@@ -1,10 +1,10 @@
 #include "lambent/atlas/welded_surface.h"
 
 #include <algorithm>
-#include <bit>
-#include <numeric>
 
 #include <Eigen/Geometry>
+
+#include "lambent/scene/weld.h"
 
 namespace lambent::atlas {
 namespace {
@@ -13,39 +13,14 @@ namespace {
 /// from files do not say which side of it is the front.
 constexpr double kFlattest = 1e-7;
 
-std::vector<std::uint32_t> weld(const scene::Mesh& mesh, std::vector<Vec3d>& positions) {
-  std::vector<std::array<float, 3>> keys(mesh.positions.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const Vec3 p = mesh.positions[i] + Vec3::Zero();  // −0 becomes +0
-    keys[i] = {p.x(), p.y(), p.z()};
-  }
-  std::vector<std::uint32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
-  });
-  // Positions are numbered by their first vertex, so that neighbours in the file stay neighbours in
-  // memory.
-  std::vector<std::uint32_t> first(keys.size()), ids(keys.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] =
-        i > 0 && keys[order[i]] == keys[order[i - 1]] ? first[order[i - 1]] : order[i];
-  for (std::uint32_t i = 0; i < ids.size(); ++i) {
-    if (first[i] == i) {
-      ids[i] = static_cast<std::uint32_t>(positions.size());
-      positions.push_back(mesh.positions[i].cast<double>());
-    } else {
-      ids[i] = ids[first[i]];
-    }
-  }
-  return ids;
-}
-
 }  // namespace
 
 WeldedSurface weldedSurface(const scene::Mesh& mesh) {
   WeldedSurface surface;
-  const std::vector<std::uint32_t> ids = weld(mesh, surface.positions);
+  const std::vector<std::uint32_t> ids = scene::weldPositions(mesh);
+  for (std::size_t v = 0; v < ids.size(); ++v)
+    if (ids[v] == surface.positions.size())
+      surface.positions.push_back(mesh.positions[v].cast<double>());
   const std::size_t count = mesh.triangles.size();
   surface.triangles.resize(count);
   surface.neighbours.assign(count, {kNoTriangle, kNoTriangle, kNoTriangle});

@@ -13,6 +13,7 @@
 
 #include "lambent/bi_scale/quoted_mesh.h"
 #include "lambent/bi_scale/uv_frames.h"
+#include "lambent/scene/flaps.h"
 #include "lambent/synthesis/appearance.h"
 #include "lambent/synthesis/cross_field.h"
 #include "lambent/synthesis/lattice_map.h"
@@ -391,6 +392,13 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
     SpreadReport& report = spread.reports.emplace_back();
     report.mesh = m;
     report.name = scene.meshes[m].name;
+    if (options.placement == Placement::Synthesized)
+      if (const std::size_t flaps = scene::dropFlaps(scene.meshes[m]); flaps > 0)
+        findings.push_back({Severity::Note, "flaps-dropped",
+                            quoted(scene.meshes[m], m) + ": " + std::to_string(flaps) +
+                                " pairs of triangles lay back to back on the surface and enclosed "
+                                "nothing: they are left out, since the patch would end at them",
+                            flaps});
     report.area = areaOf(scene.meshes[m]);
     report.patchWidth = width;
     Placed& placed = all.emplace_back();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lambent/asset/check.h"
@@ -56,6 +57,24 @@ Spread spreadOrDie(const scene::Scene& scene, const SpreadOptions& options) {
   auto spread = spreadPatch(scene, paintedRtt(), options);
   EXPECT_TRUE(spread) << spread.error().message;
   return spread ? std::move(spread->value) : Spread{};
+}
+
+TEST(SpreadPatch, FlapsOfAScanDoNotCutTheSurfaceAndAreSaid) {
+  const scene::Mesh torus = scene::torus(1, 0.4f, 40, 20);
+  scene::Mesh scan = torus;
+  for (std::uint32_t t = 0; t < 400; t += 40) {
+    const auto [a, b, c] = torus.triangles[t];
+    scan.triangles.push_back({a, b, c});
+    scan.triangles.push_back({b, a, c});
+  }
+  const auto clean = spreadPatch(scene::sceneOf(torus), paintedRtt(), small());
+  const auto repaired = spreadPatch(scene::sceneOf(scan), paintedRtt(), small());
+  ASSERT_TRUE(clean && repaired);
+  EXPECT_EQ(repaired->value.reports[0].charts, clean->value.reports[0].charts);
+  const auto said = std::find_if(repaired->findings.begin(), repaired->findings.end(),
+                                 [](const Finding& f) { return f.code == "flaps-dropped"; });
+  ASSERT_NE(said, repaired->findings.end());
+  EXPECT_EQ(said->count, 10u);
 }
 
 TEST(SpreadPatch, MakesAnAssetThatCanBeWritten) {

@@ -1,32 +1,13 @@
 #include "lambent/synthesis/manifold.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cassert>
 #include <numeric>
 
+#include "lambent/scene/weld.h"
+
 namespace lambent::synthesis {
 namespace {
-
-/// For every vertex the least vertex at the same position. −0 equals +0.
-std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
-  using Key = std::array<std::uint32_t, 3>;
-  const auto key = [&](std::uint32_t v) {
-    const Vec3 p = positions[v] + Vec3::Zero();
-    return Key{std::bit_cast<std::uint32_t>(p.x()), std::bit_cast<std::uint32_t>(p.y()),
-               std::bit_cast<std::uint32_t>(p.z())};
-  };
-  std::vector<std::pair<Key, std::uint32_t>> sorted(positions.size());
-  for (std::uint32_t v = 0; v < sorted.size(); ++v) sorted[v] = {key(v), v};
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::uint32_t> least(positions.size());
-  for (std::size_t i = 0, first = 0; i < sorted.size(); ++i) {
-    if (sorted[i].first != sorted[first].first) first = i;
-    least[sorted[i].second] = sorted[first].second;
-  }
-  return least;
-}
 
 void pairHalfEdges(const std::vector<std::uint32_t>& welded,
                    const std::vector<scene::Triangle>& triangles, Manifold& m) {
@@ -78,7 +59,7 @@ Manifold manifoldOf(const scene::Mesh& mesh) {
   const auto corners = std::uint32_t(3 * mesh.triangles.size());
   m.vertexOfCorner.assign(corners, kNone);
   m.twin.assign(corners, kNone);
-  const std::vector<std::uint32_t> welded = weld(mesh.positions);
+  const std::vector<std::uint32_t> welded = scene::weldPositions(mesh);
   pairHalfEdges(welded, mesh.triangles, m);
 
   for (std::uint32_t c = 0; c < corners; ++c) {
