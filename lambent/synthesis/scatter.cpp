@@ -26,7 +26,7 @@ constexpr float kLength = 0.02f;  ///< cost of any cut, in standard deviations o
 /// Cost of a parted piece, where pieces leave room between them for a way round, and where they lie
 /// close: there what is between them would be left in shreds.
 constexpr float kParted = 40.0f, kPartedClose = 1.0f;
-constexpr int kRounds = 3, kTries = 40;  ///< of mending, and of each place
+constexpr int kRounds = 2, kTries = 40;  ///< of mending, and of each place
 constexpr float kReach = 0.45f;          ///< of a piece that mends, in periods
 
 struct Member {
@@ -287,37 +287,88 @@ class Cuts {
   std::vector<Node> nodes_;
 };
 
-/// Where pieces of the patch are still parted, all of it that is there and other places of it are
-/// tried nearby: in the end one piece is whole, and what is left of the other has given way.
-Status mend(const MesoGraph& graph, const ScatterOptions& options, const Progress& progress,
-            Cuts& cuts, std::vector<Vec2>& q) {
+/// Where a piece of the patch is parted, and what may be laid anew around there.
+struct Wound {
+  std::uint32_t centre = 0;
+  std::vector<Member> members;
+  std::vector<std::uint32_t> near;  ///< the members that are to be whole
+};
+
+std::vector<Wound> woundsOf(const MesoGraph& graph, const ScatterOptions& options,
+                            const Cuts& cuts) {
   const float reach = kReach * std::sqrt(options.patchSize.x() * options.patchSize.y());
   Growth growth(graph);
-  std::vector<std::uint8_t> done;
+  std::vector<Wound> wounds;
+  std::vector<std::uint8_t> isNear(graph.size(), 0);
+  for (std::uint32_t v = 0; v < graph.size(); ++v) {
+    if (isNear[v] || !cuts.isParted(v)) continue;
+    Wound& wound = wounds.emplace_back(Wound{v, growth.from(v, reach), {}});
+    for (const Member& m : wound.members) {
+      if (m.way.cwiseProduct(options.patchSize).norm() >= 0.5f * reach) continue;
+      wound.near.push_back(m.vertex);
+      isNear[m.vertex] = 1;
+    }
+  }
+  return wounds;
+}
+
+/// Takes from `waiting` those of which none changes what another looks at.
+std::vector<const Wound*> apartFromEachOther(const MesoGraph& graph,
+                                             std::vector<const Wound*>& waiting) {
+  std::vector<std::uint8_t> isTaken(graph.size(), 0);
+  std::vector<const Wound*> batch;
+  std::erase_if(waiting, [&](const Wound* wound) {
+    const auto isFree = [&](const Member& m) {
+      const auto edges = graph.of(m.vertex);
+      return std::none_of(edges.begin(), edges.end(),
+                          [&](const MesoGraph::Edge& e) { return isTaken[e.to] != 0; });
+    };
+    if (!std::all_of(wound->members.begin(), wound->members.end(), isFree)) return false;
+    for (const Member& m : wound->members) {
+      isTaken[m.vertex] = 1;
+      for (const MesoGraph::Edge& e : graph.of(m.vertex)) isTaken[e.to] = 1;
+    }
+    batch.push_back(wound);
+    return true;
+  });
+  return batch;
+}
+
+/// Tries what is there and other places of the patch around a wound: in the end one piece is whole,
+/// and what is left of the other has given way.
+void mend(const Wound& wound, const ScatterOptions& options, int round, const std::vector<Vec2>& q,
+          Cuts& cuts) {
+  const auto isMended = [&] {
+    return std::none_of(wound.near.begin(), wound.near.end(),
+                        [&](std::uint32_t v) { return cuts.isParted(v); });
+  };
+  math::Random random(options.seed, wound.centre, 0x4ea1u + std::uint64_t(round));
+  for (int k = 0; k < kTries && !isMended(); ++k) {
+    Vec2 at = q[wound.centre];
+    // Three of four times what lies between, for what is left of a piece to give way to.
+    for (int draw = 0; draw == 0 || (k % 4 != 0 && draw < 8 && cuts.isPiece(at)); ++draw)
+      if (k > 0) at = random.uniform2();
+    cuts.cutIn(wound.members, at);
+  }
+}
+
+Status mendAll(const MesoGraph& graph, const ScatterOptions& options, const Progress& progress,
+               const Cuts& cuts, const std::vector<Vec2>& q) {
+  const work::Runner runner;
   for (int round = 0; round < kRounds; ++round) {
-    done.assign(graph.size(), 0);
-    for (std::uint32_t v = 0; v < graph.size(); ++v) {
-      if (done[v] || !cuts.isParted(v)) continue;
-      if (progress && !progress({"cuts round pieces", round * std::size_t(graph.size()) + v,
-                                 kRounds * std::size_t(graph.size()), "vertices"}))
+    const std::vector<Wound> wounds = woundsOf(graph, options, cuts);
+    std::vector<const Wound*> waiting;
+    for (const Wound& wound : wounds) waiting.push_back(&wound);
+    while (!waiting.empty()) {
+      if (progress &&
+          !progress({"cuts round pieces", wounds.size() - waiting.size(), wounds.size(), "pieces"}))
         return report::cancelled();
-      const std::vector<Member> members = growth.from(v, reach);
-      std::vector<std::uint32_t> near;
-      for (const Member& m : members)
-        if (m.way.cwiseProduct(options.patchSize).norm() < 0.5f * reach) near.push_back(m.vertex);
-      for (const std::uint32_t n : near) done[n] = 1;
-      const auto isMended = [&] {
-        return std::none_of(near.begin(), near.end(),
-                            [&](std::uint32_t n) { return cuts.isParted(n); });
-      };
-      math::Random random(options.seed, v, 0x4ea1u + std::uint64_t(round));
-      for (int k = 0; k < kTries && (k == 0 || !isMended()); ++k) {
-        Vec2 at = q[v];
-        // Three of four times what lies between, for what is left of a piece to give way to.
-        for (int draw = 0; draw == 0 || (k % 4 != 0 && draw < 8 && cuts.isPiece(at)); ++draw)
-          if (k > 0) at = random.uniform2();
-        cuts.cutIn(members, at);
-      }
+      const std::vector<const Wound*> batch = apartFromEachOther(graph, waiting);
+      (void)runner.run({}, work::Chunks(batch.size(), 1), cuts,
+                       [&](const work::Chunk& chunk, Cuts& own) {
+                         for (std::size_t k = chunk.begin; k < chunk.end; ++k)
+                           mend(*batch[k], options, round, q, own);
+                       });
     }
   }
   return Status::ok();
@@ -344,7 +395,7 @@ Status scatter(const MesoMesh& mesh, std::size_t level, const MesoGraph& graph,
     cuts.cutIn(std::uint32_t(k % cells.size()));
   }
   const bool goRound = options.pieces && options.pieces->leaveRoom();
-  return goRound ? mend(graph, options, progress, cuts, q) : Status::ok();
+  return goRound ? mendAll(graph, options, progress, cuts, q) : Status::ok();
 }
 
 }  // namespace lambent::synthesis

@@ -222,14 +222,21 @@ TEST(Synthesize, APatchTooSmallForTheMesoMeshNamesTheRemedy) {
 
 TEST(Synthesize, TheSameAtAnyNumberOfThreadsAndAnotherForEverySeed) {
   const MesoMesh mesh = mesoOf(scene::torus(1.0f, 0.4f, 40, 20), 20000);
+  const transfer::SimulatedRtt pebbles = patchOf(pebblesAlbedo, 48);
+  const PatchPieces pieces = piecesOf(lookOf(pebbles));
   SynthesisOptions options;
   options.patchSize = Vec2(0.6f, 0.6f);
-  std::vector<Vec2> q[2];
+  std::vector<Vec2> q[2], kept[2];
   for (int i = 0; i < 2; ++i) {
     const work::ThreadLimit threads(1 + 3 * i);
+    options.pieces = nullptr;
     q[i] = synthesized(mesh, stucco(), options);
+    options.pieces = &pieces;
+    kept[i] = synthesized(mesh, appearanceOf(pebbles, 4), options);
   }
   EXPECT_EQ(std::memcmp(q[0].data(), q[1].data(), sizeof(Vec2) * q[0].size()), 0);
+  EXPECT_EQ(std::memcmp(kept[0].data(), kept[1].data(), sizeof(Vec2) * kept[0].size()), 0);
+  options.pieces = nullptr;
   options.seed = 1;
   EXPECT_NE(synthesized(mesh, stucco(), options), q[0]);
 }
