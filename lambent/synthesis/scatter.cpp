@@ -379,10 +379,13 @@ Status mendAll(const MesoGraph& graph, const ScatterOptions& options, const Prog
 Status scatter(const MesoMesh& mesh, std::size_t level, const MesoGraph& graph,
                const PatchLevel& patch, const PatchLevel& coarse, const ScatterOptions& options,
                const Progress& progress, std::vector<Vec2>& q) {
-  Division all = cellsOf(mesh, level, graph, options);
-  std::vector<Share>& cells = all.cells;
-  grow(graph, widthOf(options), cells);
-  chooseJumps(coarse, options, q, cells);
+  Division all;
+  if (options.randomness > 0.0f) {
+    all = cellsOf(mesh, level, graph, options);
+    grow(graph, widthOf(options), all.cells);
+    chooseJumps(coarse, options, q, all.cells);
+  }
+  const std::vector<Share>& cells = all.cells;
   for (std::uint32_t c = 0; c < cells.size(); ++c)
     for (const Member& m : cells[c].members)
       if (all.cellOf[m.vertex] == c) q[m.vertex] = cells[c].place + m.way;

@@ -14,7 +14,7 @@ namespace lambent::synthesis {
 
 struct ScatterOptions {
   Vec2 patchSize = Vec2(0.1f, 0.1f);  ///< metres
-  float randomness = 0.5f;            ///< above 0, to 1: as in SynthesisOptions
+  float randomness = 0.5f;            ///< 0 … 1, as in SynthesisOptions: 0 has no cells
   std::uint64_t seed = 0;
   const PatchPieces* pieces = nullptr;  ///< of the patch: cuts go round them where they can
 };

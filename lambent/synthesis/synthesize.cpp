@@ -113,7 +113,8 @@ Result<std::vector<Vec2>> synthesize(const MesoMesh& mesh, const Appearance& app
     return PatchLevel(appearance, options.patchSize, mesh.spacing(l), options.candidates);
   };
   std::optional<PatchLevel> patch(patchAt(level));
-  if (options.randomness > 0.0f) {
+  const bool goesRound = options.pieces && options.pieces->leaveRoom();
+  if (options.randomness > 0.0f || goesRound) {
     // Pieces are cut where their outlines can be seen.
     while (level + 1 < mesh.levels.size() &&
            mesh.spacing(level) > options.patchSize.minCoeff() / kVerticesAcrossACut) {
@@ -129,7 +130,6 @@ Result<std::vector<Vec2>> synthesize(const MesoMesh& mesh, const Appearance& app
   }
   for (Vec2& place : q) place = intoPatch(place);
   const std::size_t first = level;
-  const bool goesRound = options.randomness > 0.0f && options.pieces && options.pieces->leaveRoom();
   for (;; ++level) {
     if (level > first) {
       offsets = offsetsOf(mesh, level, options.patchSize);
