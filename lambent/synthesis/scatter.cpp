@@ -34,6 +34,7 @@ struct Member {
   Vec2 way;  ///< from the centre, in periods
 };
 
+/// A piece of the patch and the part of the surface that it is nearest to.
 struct Share {
   std::uint32_t centre = 0;
   float reach = 0.0f;  ///< from the centre to the furthest that is nearest to it, metres
@@ -133,7 +134,7 @@ void chooseJumps(const PatchLevel& patch, const ScatterOptions& options, const s
   });
 }
 
-/// What lies on the surface, and how well proposals fit into it.
+/// What lies on the surface, and pieces cut into it.
 class Cuts {
  public:
   Cuts(const MesoGraph& graph, const PatchLevel& patch, const ScatterOptions& options,
@@ -345,9 +346,11 @@ void mend(const Wound& wound, const ScatterOptions& options, int round, const st
   math::Random random(options.seed, wound.centre, 0x4ea1u + std::uint64_t(round));
   for (int k = 0; k < kTries && !isMended(); ++k) {
     Vec2 at = q[wound.centre];
-    // Three of four times what lies between, for what is left of a piece to give way to.
-    for (int draw = 0; draw == 0 || (k % 4 != 0 && draw < 8 && cuts.isPiece(at)); ++draw)
-      if (k > 0) at = random.uniform2();
+    if (k > 0) {
+      at = random.uniform2();
+      // Three of four times what lies between, for what is left of a piece to give way to.
+      for (int draw = 1; draw < 8 && k % 4 != 0 && cuts.isPiece(at); ++draw) at = random.uniform2();
+    }
     cuts.cutIn(wound.members, at);
   }
 }
