@@ -131,11 +131,16 @@ void ConnectionServer::lengthenBacklog() {
 }
 
 bool ConnectionServer::process_and_close_socket(socket_t socket) {
-  const std::scoped_lock lock(mutex_);
+  std::unique_lock lock(mutex_);
   joinEnded();
   if (connections_.size() >= limits_.connections) makeRoom();
-  // Those that were dismissed still count until they have ended: this bounds the number of threads.
-  if (hungUp_ || connections_.size() >= limits_.connections + limits_.connections / 2) {
+  // Those that were dismissed count until they have ended: this bounds the number of threads. On a
+  // busy machine a burst comes faster than they end, and who comes last is not turned away for it.
+  const auto isRoom = [this] {
+    joinEnded();
+    return hungUp_ || connections_.size() < limits_.connections + limits_.connections / 2;
+  };
+  if (!ended_.wait_for(lock, limits_.room, isRoom) || hungUp_) {
     close(socket);
     return false;
   }
@@ -185,6 +190,7 @@ void ConnectionServer::enter(Connection& connection, Phase phase) {
   if (phase != Phase::Ended) return;
   shutdown(connection.socket, SHUT_RDWR);
   close(connection.socket);
+  ended_.notify_one();
 }
 
 void ConnectionServer::joinEnded() {
@@ -211,6 +217,7 @@ void ConnectionServer::hangUp() {
   {
     const std::scoped_lock lock(mutex_);
     hungUp_ = true;
+    ended_.notify_one();
     for (const auto& connection : connections_)
       if (connection->phase != Phase::Ended) shutdown(connection->socket, SHUT_RDWR);
     all.swap(connections_);

@@ -6,6 +6,7 @@
 #include <httplib.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -17,6 +18,8 @@ struct ConnectionLimits {
   /// With each a thread. One more takes the place of the one that has kept us waiting the longest,
   /// or, if all are being answered, of the one that takes the longest to hear its answer.
   std::size_t connections = 128;
+  std::chrono::milliseconds room{
+      5000};  ///< for who was dismissed to end, before another is refused
   std::size_t requestsPerConnection = 1000;
   std::size_t requestBytes = 64 << 10;      ///< of one request: its line and its headers
   std::chrono::milliseconds idle{5000};     ///< from one request to the first byte of the next
@@ -62,6 +65,7 @@ class ConnectionServer : public httplib::Server {
   ConnectionLimits limits_;
   std::mutex mutex_;  ///< over the rest
   bool hungUp_ = false;
+  std::condition_variable ended_;  ///< a connection, or all of it
   std::list<std::unique_ptr<Connection>> connections_;
 };
 
