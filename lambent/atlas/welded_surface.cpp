@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/scene/half_edges.h"
 #include "lambent/scene/weld.h"
 
 namespace lambent::atlas {
@@ -28,14 +29,6 @@ WeldedSurface weldedSurface(const scene::Mesh& mesh) {
   surface.centroids.resize(count);
   surface.areas.assign(count, 0.0);
 
-  struct Edge {
-    std::uint64_t ends;
-    std::uint32_t triangle;
-    std::uint8_t side;
-    bool upwards;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * count);
   for (std::uint32_t t = 0; t < count; ++t) {
     auto& v = surface.triangles[t];
     for (int k = 0; k < 3; ++k) v[k] = ids[mesh.triangles[t][k]];
@@ -50,26 +43,14 @@ WeldedSurface weldedSurface(const scene::Mesh& mesh) {
     surface.areas[t] = 0.5 * size;
     surface.area += 0.5 * size;
     surface.normals[t] = doubled / size;
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t from = v[k], to = v[(k + 1) % 3];
-      edges.push_back({std::uint64_t(std::min(from, to)) << 32 | std::max(from, to), t,
-                       static_cast<std::uint8_t>(k), from < to});
-    }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.ends != b.ends ? a.ends < b.ends : a.triangle < b.triangle;
-  });
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i + 1;
-    while (end < edges.size() && edges[end].ends == edges[i].ends) ++end;
-    if (end - i == 2 && edges[i].upwards != edges[i + 1].upwards) {
-      surface.neighbours[edges[i].triangle][edges[i].side] = edges[i + 1].triangle;
-      surface.neighbours[edges[i + 1].triangle][edges[i + 1].side] = edges[i].triangle;
-    } else if (end - i >= 2) {
-      ++surface.nonManifoldEdges;
-    }
-    i = end;
-  }
+  std::vector<std::uint8_t> leftOut;
+  for (const double area : surface.areas) leftOut.push_back(!(area > 0.0));
+  const scene::HalfEdges edges = scene::halfEdges(surface.triangles, leftOut);
+  for (std::uint32_t h = 0; h < edges.twin.size(); ++h)
+    if (edges.twin[h] != scene::HalfEdges::kNone)
+      surface.neighbours[h / 3][h % 3] = edges.twin[h] / 3;
+  surface.nonManifoldEdges = edges.nonManifoldEdges + edges.inconsistentEdges;
   return surface;
 }
 

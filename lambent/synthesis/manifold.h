@@ -12,8 +12,8 @@ namespace lambent::synthesis {
 /// In a table of numbers: no such vertex, half-edge or triangle.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Vertices of equal position are taken as one, and triangles hang together over each edge that
-/// exactly two of them share with equal sense. Along every other edge, and at points where several
+/// Vertices of equal position are taken as one, and triangles hang together as scene::halfEdges has
+/// it. Along every other edge, and at points where several
 /// fans of triangles touch, the surface is cut; so each vertex of what is left has one fan of
 /// triangles around it, whatever the mesh.
 ///
