@@ -2,6 +2,8 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -11,6 +13,7 @@ namespace lambent::synthesis {
 
 /// A Hermitian positive definite matrix whose entry (j, i) is −w e^{iρ}, with w > 0 and ρ the
 /// rotation from i to j: of up to `largestDirect` rows factorised, of more solved by iteration.
+/// Products run on all threads, and come out the same on any number of them.
 class ConnectionSolver {
  public:
   using Complex = std::complex<double>;
@@ -20,27 +23,32 @@ class ConnectionSolver {
   /// `lower`: the matrix's lower triangle.
   explicit ConnectionSolver(const Matrix& lower, Eigen::Index largestDirect = 60000);
   /// The factorisation stood.
-  bool ok() const { return factor_.info() == Eigen::Success; }
-  /// x with matrix · x = b; the iteration begins at `guess` and ends at a residual of `tolerance`
-  /// times that of 0.
-  Field solve(const Field& b, const Field& guess, double tolerance) const;
-  /// The same roughly, at the cost of one step of the iteration: the aggregates' solution and the
-  /// diagonal's. Exact where the matrix was factorised.
-  Field roughly(const Field& b) const {
-    return direct_ ? Field(factor_.solve(b)) : precondition(b);
-  }
+  bool ok() const { return coarse_ ? coarse_->ok() : factor_.info() == Eigen::Success; }
+  /// x with matrix · x = b. The iteration begins at `guess` and ends at a residual of `tolerance`
+  /// times that of 0, or `reduction` times that of the guess.
+  Field solve(const Field& b, const Field& guess, double tolerance, double reduction = 0.0) const;
 
  private:
-  void aggregate();
-  Field precondition(const Field& r) const;
+  using Rows = Eigen::SparseMatrix<Complex, Eigen::RowMajor>;
+  /// Neighbours that are nearly one unknown, each carried from its aggregate's first.
+  struct Aggregates {
+    std::vector<std::size_t> of;  ///< per row
+    Field turn;                   ///< per row: the rotation from its aggregate's first
+    std::size_t count = 0;
+  };
 
-  bool direct_;
-  Matrix full_;  ///< both triangles; empty if direct
-  Eigen::VectorXd inverseDiagonal_;
-  std::vector<Eigen::Index> aggregateOf_;  ///< per row
-  Field turn_;                             ///< per row: the rotation from its aggregate's root
-  Eigen::Index aggregates_ = 0;
-  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor_;  ///< of the matrix, or of the aggregates'
+  Aggregates aggregates() const;
+  void coarsen(Eigen::Index largestDirect);
+  /// One cycle from fine to coarse and back; exact where the matrix was factorised.
+  Field roughly(const Field& b) const;
+
+  // What is factorised.
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor_;
+  // What is not.
+  Rows full_;                ///< both triangles
+  Field damped_;             ///< the inverse diagonal, damped so that steps of it converge
+  Rows prolong_, restrict_;  ///< from the coarse problem's unknowns, and to them
+  std::unique_ptr<ConnectionSolver> coarse_;
 };
 
 }  // namespace lambent::synthesis

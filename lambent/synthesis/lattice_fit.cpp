@@ -72,17 +72,17 @@ bool LatticeFit::factorise() {
   const double little = 1e-9 * total / std::max(1u, corners_.unknowns);
   for (std::uint32_t i = 0; i < corners_.unknowns; ++i)
     entries.emplace_back(int(i), int(i), little);
-  ConnectionSolver::Matrix a(corners_.unknowns, corners_.unknowns);
+  Matrix a(corners_.unknowns, corners_.unknowns);
   a.setFromTriplets(entries.begin(), entries.end());
   b_.resize(corners_.unknowns, variables_);
   b_.setFromTriplets(columns.begin(), columns.end());
-  solver_.emplace(a);
-  if (!solver_->ok()) return false;
+  solver_.compute(a);
+  if (solver_.info() != Eigen::Success) return false;
   if (variables_ == 0) return true;
   // S = C − Bᴴ A⁻¹ B, column by column.
-  c_ = std::move(c), s_ = c_;
+  s_ = std::move(c);
   work::parallelFor(variables_, [&](std::size_t j) {
-    const Vector x = solver_->roughly(Vector(b_.col(Eigen::Index(j))));
+    const Vector x = solver_.solve(Vector(b_.col(Eigen::Index(j))));
     s_.col(Eigen::Index(j)) -= b_.adjoint() * x;
   });
   s_ = (0.5 * (s_ + s_.adjoint())).eval();
@@ -103,13 +103,13 @@ void LatticeFit::rightSide(std::span<const Complex> turns, Vector& r, Vector& s)
       });
 }
 
-Vector LatticeFit::better(const Vector& jumps, const Vector& z, const Vector& s) const {
-  return variables_ == 0 ? jumps
-                         : Vector(jumps + inverse_.solve(s - b_.adjoint() * z - c_ * jumps));
+Vector LatticeFit::jumps(const Vector& r, const Vector& s) const {
+  if (variables_ == 0) return Vector();
+  return inverse_.solve(s - b_.adjoint() * Vector(solver_.solve(r)));
 }
 
-Vector LatticeFit::places(const Vector& r, const Vector& jumps, const Vector& guess) const {
-  return solver_->solve(variables_ == 0 ? r : Vector(r - b_ * jumps), guess, 1e-4);
+Vector LatticeFit::places(const Vector& r, const Vector& jumps) const {
+  return solver_.solve(variables_ == 0 ? r : Vector(r - b_ * jumps));
 }
 
 Complex LatticeFit::at(std::uint32_t corner, const Vector& z, const Vector& jumps) const {

@@ -4,14 +4,13 @@
 
 #include <complex>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include "lambent/synthesis/connection_solver.h"
 #include "lambent/synthesis/lattice_jumps.h"
 
 namespace lambent::synthesis {
@@ -28,19 +27,19 @@ class LatticeFit {
   /// The right side for triangles that are to be turned by `turns`: Z's and τ's.
   void rightSide(std::span<const std::complex<double>> turns, Eigen::VectorXcd& r,
                  Eigen::VectorXcd& s) const;
-  /// A step from jumps, and the places that are best with them, to the best jumps.
-  Eigen::VectorXcd better(const Eigen::VectorXcd& jumps, const Eigen::VectorXcd& z,
-                          const Eigen::VectorXcd& s) const;
+  /// The best jumps.
+  Eigen::VectorXcd jumps(const Eigen::VectorXcd& r, const Eigen::VectorXcd& s) const;
   /// What jumps cost, with the best places for each: a quadratic form.
   const Eigen::MatrixXcd& schur() const { return s_; }
-  /// The best places with these jumps; `guess` is near them.
-  Eigen::VectorXcd places(const Eigen::VectorXcd& r, const Eigen::VectorXcd& jumps,
-                          const Eigen::VectorXcd& guess) const;
+  /// The best places with these jumps.
+  Eigen::VectorXcd places(const Eigen::VectorXcd& r, const Eigen::VectorXcd& jumps) const;
   /// z of a corner.
   std::complex<double> at(std::uint32_t corner, const Eigen::VectorXcd& z,
                           const Eigen::VectorXcd& jumps) const;
 
  private:
+  using Matrix = Eigen::SparseMatrix<std::complex<double>>;
+
   template <class Visit>
   void eachEdge(const Visit& visit) const;
 
@@ -48,10 +47,10 @@ class LatticeFit {
   const CrossField& field_;
   const LatticeCorners& corners_;
   std::uint32_t variables_;
-  std::vector<double> weights_;             ///< per half-edge: cotangents
-  std::optional<ConnectionSolver> solver_;  ///< of A
-  Eigen::SparseMatrix<std::complex<double>> b_;
-  Eigen::MatrixXcd c_, s_;
+  std::vector<double> weights_;           ///< per half-edge: cotangents
+  Eigen::SimplicialLDLT<Matrix> solver_;  ///< of A
+  Matrix b_;
+  Eigen::MatrixXcd s_;
   Eigen::LLT<Eigen::MatrixXcd> inverse_;  ///< of S
 };
 

@@ -8,8 +8,7 @@
 //
 // Where we deviate: τ is eliminated from the system by a Schur complement, so that whole numbers
 // are found in a small dense problem, at one back substitution for each τ, rather than by solving
-// the sparse one anew after each of them. Of a large system the complement is a rough one, which
-// costs little more: then it leads to the best τ in several steps rather than at once.
+// the sparse one anew after each of them.
 #include "lambent/synthesis/lattice_map.h"
 
 #include <algorithm>
@@ -97,8 +96,8 @@ Result<LatticeMap> latticeMap(const Manifold& m, const CrossField& field,
   };
   const auto fit = [&](bool loose) {
     system.rightSide(turns, r, s);
-    if (loose) tau = system.better(tau, system.places(r, tau, z), s);
-    z = system.places(r, tau, z);
+    if (loose) tau = system.jumps(r, s);
+    z = system.places(r, tau);
     work::parallelFor(triangles, [&](std::size_t t) {
       if (m.vertexOfCorner[3 * t] == kNone) return;
       const Complex a = linear(std::uint32_t(t)).first;

@@ -115,7 +115,7 @@ Result<Field> spread(const Manifold& m, const TangentPlanes& p, Field u,
       Field b = u;
       for (Eigen::Index k = 0; k < b.size(); ++k) b[k] = p.mass[std::size_t(k)] * unitOf(u[k]);
       if (pulls) b += time * pulls->sum;
-      u = solver.solve(b, u, 1e-5);
+      u = solver.solve(b, u, 1e-4);
     }
   }
   return u;
@@ -147,7 +147,8 @@ Result<Field> smoothest(const Manifold& m, const TangentPlanes& p) {
     for (Eigen::Index i = 0; i < u.size(); ++i) {
       guess[i] *= last[m.componentOfVertex[std::size_t(i)]];
     }
-    u = solver.solve(b, guess, 1e-5);
+    // No nearer to the solution than it pays: the next right side is another.
+    u = solver.solve(b, guess, 1e-5, 0.1);
     // As u has unit length before, its length now tends to the inverse of the least eigenvalue.
     std::fill(norm.begin(), norm.end(), 0.0);
     for (Eigen::Index i = 0; i < u.size(); ++i) {
