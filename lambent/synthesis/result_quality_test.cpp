@@ -126,6 +126,14 @@ TEST(ResultQuality, StrainIsNoTear) {
   EXPECT_EQ(continuedOf(sheet, matt(discs)), 1.0);
 }
 
+TEST(ResultQuality, APatchThatLiesLargerBreaksNoPiece) {
+  const Sheet sheet([](const Vec3& p) { return Vec2(0.8f * flat(p)); });
+  const ResultQuality quality = resultQualityOf(sheet.worn(), matt(discs));
+  EXPECT_EQ(quality.continued, 1.0);
+  EXPECT_EQ(*quality.whole, 1.0);
+  EXPECT_EQ(*quality.wholeByArea, 0.0);
+}
+
 TEST(ResultQuality, APatchMayGoOnAsOneOfItsSymmetries) {
   const transfer::SimulatedRtt weave = matt(weaveAlbedo);
   const auto halves = [](const Vec2& shift) {

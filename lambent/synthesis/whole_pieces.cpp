@@ -1,7 +1,11 @@
 #include "lambent/synthesis/whole_pieces.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
+
+#include <Eigen/Dense>
 
 #include "lambent/math/union_find.h"
 
@@ -9,6 +13,37 @@ namespace lambent::synthesis {
 namespace {
 
 constexpr double kWithin = 0.15;
+
+/// What each texel shows of the patch, m² of a patch that lies as it is: as places around it change.
+std::vector<double> patchAreas(const WornTexels& texels, const Vec2& period,
+                               const Continuation& continuation) {
+  constexpr float kMost = 4.0f;  // times as fast as a patch that lies as it is
+  struct Slope {
+    Eigen::Matrix2f ways = Eigen::Matrix2f::Zero(), places = Eigen::Matrix2f::Zero();
+  };
+  std::vector<Slope> slopes(texels.size());
+  for (std::size_t i = 0; i < texels.steps.size(); ++i) {
+    if (!continuation.goesOn[i]) continue;
+    const auto& [a, b, width] = texels.steps[i];
+    Vec2 place = texels.places[b] - texels.places[a];
+    for (int k = 0; k < 2; ++k) place[k] = (place[k] - std::round(place[k])) * period[k];
+    const Vec3 d = texels.positions[b] - texels.positions[a];
+    if (place.norm() > kMost * d.norm()) continue;  // goes on as another of its like
+    for (const std::uint32_t at : {a, b}) {
+      const Vec2 way = laidAt(texels, at, d);
+      slopes[at].ways += way * way.transpose();
+      slopes[at].places += place * way.transpose();
+    }
+  }
+  std::vector<double> areas(texels.areas.begin(), texels.areas.end());
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const float ways = slopes[i].ways.determinant();
+    const float across = slopes[i].ways.trace();
+    if (ways > 1e-3f * across * across)
+      areas[i] *= std::abs(double(slopes[i].places.determinant()) / double(ways));
+  }
+  return areas;
+}
 
 }  // namespace
 
@@ -28,14 +63,17 @@ std::optional<WholePieces> wholePieces(const WornTexels& texels, const Vec2& per
     connected.join(a, b);
     if (continuation.goesOn[i]) unbroken.join(a, b);
   }
-  std::vector<double> area(count, 0.0), partArea(count, 0.0), largestPart(count, 0.0);
+  const std::vector<double> shown = patchAreas(texels, period, continuation);
+  std::vector<double> area(count, 0.0);  // on the surface; the others in the patch
+  std::vector<double> pieceArea(count, 0.0), partArea(count, 0.0), largestPart(count, 0.0);
   std::vector<int> pieceOf(count, PatchPieces::kBetween);
   std::vector<std::uint8_t> cut(count, 0);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (pieceAt[i] < 0) continue;
     const std::uint32_t root = connected.rootOf(i);
     area[root] += double(texels.areas[i]);
-    partArea[unbroken.rootOf(i)] += double(texels.areas[i]);
+    pieceArea[root] += shown[i];
+    partArea[unbroken.rootOf(i)] += shown[i];
     cut[root] |= texels.atEnd[i];
   }
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -59,7 +97,7 @@ std::optional<WholePieces> wholePieces(const WornTexels& texels, const Vec2& per
         byArea += area[root];
         break;
       }
-    if (alike(area[root], pieceOf[root]) && alike(largestPart[root], pieceOf[root]))
+    if (alike(pieceArea[root], pieceOf[root]) && alike(largestPart[root], pieceOf[root]))
       asOne += area[root];
   }
   if (!(all > 0.0)) return std::nullopt;

@@ -15,8 +15,9 @@ struct WholePieces {
   /// Share of the pieces' area, on the surface, in connected pieces whose area is within 15% of that
   /// of a piece of the patch.
   double wholeByArea = 1.0;
-  /// … and which moreover show one piece of the patch: their largest part over which the patch goes
-  /// on is itself as large as that piece, to 15%.
+  /// … that show one piece of the patch, unbroken: measured in the patch, they and their largest part
+  /// over which it goes on are as large as that piece, to 15%. A patch that lies larger or smaller
+  /// than it is, as a lattice does where a surface has it so, breaks nothing.
   double whole = 1.0;
   std::size_t count = 0;  ///< connected pieces
 };
