@@ -83,7 +83,10 @@ Status runBake(BakeRequest arguments, Console& console) {
     return badInput(arguments.scene.path.string() + ": " + receivers.error().message);
   if (!receivers) return receivers.error();
   const auto looked = lookBetweenReceivers(arguments.refine,
-                                           {*scene, *rays, edges, *receivers, placement}, console);
+                                           {*scene, *rays, edges, *receivers, placement,
+                                            ", --texels bakes a mesh on a grid over its UVs, "
+                                            "--texels auto over a layout made for it"},
+                                           console);
   if (!looked) return looked.error();
   auto field = macro::bake(*scene, *rays, *receivers, options, console.progress());
   if (!field) return field.error();

@@ -117,7 +117,8 @@ Result<Looked> lookBetweenReceivers(const RefineArguments& arguments, const Scen
                                formatCount(looked.added)));
   }
   console.report(
-      macro::findingsOf(looked.after ? *looked.after : *looked.before, bake.scene, look));
+      macro::findingsOf(looked.after ? *looked.after : *looked.before, bake.scene, look,
+                        fmt::format("--refine cuts triangles where that is so{}", bake.besides)));
   return looked;
 }
 

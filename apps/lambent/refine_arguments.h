@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include "apps/lambent/console.h"
 #include "lambent/macro/interpolation_error.h"
@@ -31,6 +32,7 @@ struct SceneToBake {
   trace::Edges edges;  ///< of the rays
   transport::PlacedReceivers& receivers;
   const transport::Placement& placement;
+  std::string_view besides;  ///< what else the verb has against shadows between receivers
 };
 
 /// How far light between receivers is off, by a sample that costs little of a bake; after cutting

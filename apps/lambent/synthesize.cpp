@@ -10,6 +10,7 @@
 #include "apps/lambent/describe.h"
 #include "apps/lambent/help.h"
 #include "apps/lambent/named_files.h"
+#include "apps/lambent/refine_arguments.h"
 #include "apps/lambent/scene_arguments.h"
 #include "apps/lambent/transfer_arguments.h"
 #include "apps/lambent/verbs.h"
@@ -48,6 +49,7 @@ Result<SteeringArgument> parseSteering(std::string_view text) {
 struct SynthesizeRequest {
   SceneArguments scene;
   TransferArguments transfer;
+  RefineArguments refine;
   std::filesystem::path rtt, output, atlasPicture;
   std::vector<std::string> meshes;
   std::optional<Size> tiles;
@@ -277,6 +279,19 @@ Result<bi_scale::Tint> tintOf(const SynthesizeRequest& arguments, scene::Scene& 
   return bi_scale::Tint(bi_scale::PictureTint{int(scene.textures.size()) - 1});
 }
 
+/// Cuts triangles between whose vertices light would be missed, before a patch is laid over them:
+/// vertices are the receivers of what carries one.
+Result<Looked> refineReceivers(const RefineArguments& arguments, scene::Scene& scene,
+                               Console& console) {
+  constexpr trace::Edges kEdges = trace::Edges::Watertight;
+  auto rays = console.stage("ray structure", [&] { return trace::RayScene::build(scene, kEdges); });
+  if (!rays) return rays.error();
+  const transport::Placement vertices;
+  auto receivers = transport::placeReceivers(scene, vertices, rays->offset());
+  if (!receivers) return receivers.error();
+  return lookBetweenReceivers(arguments, {scene, *rays, kEdges, *receivers, vertices, ""}, console);
+}
+
 Status run(SynthesizeRequest arguments, Console& console) {
   if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
   if (Status s = console.takeOutput(arguments.output, "-o", ".glb"); !s) return s;
@@ -324,6 +339,13 @@ Status run(SynthesizeRequest arguments, Console& console) {
   options.seed = options.transfer.seed;
   options.albedo = meso::effectiveAlbedo(transfer::decode(*rtt));
 
+  Looked looked;
+  console.report(bi_scale::prepare(*scene, *rtt, options));
+  if (!arguments.preview) {
+    auto refined = refineReceivers(arguments.refine, *scene, console);
+    if (!refined) return refined.error();
+    looked = *refined;
+  }
   auto made = bi_scale::spreadPatch(std::move(*scene), *rtt, options, console.progress());
   if (!made && made.error().kind == ErrorKind::BadInput)
     return badInput(arguments.scene.path.string() + ": " + made.error().message);
@@ -359,6 +381,7 @@ Status run(SynthesizeRequest arguments, Console& console) {
                          {"bytes", bytes},
                          {"seconds", seconds},
                          {"surfaces", reportsJson},
+                         {"between_receivers", asJson(looked, spread.asset.scene)},
                          {"transfer", transfer.json}},
                         fmt::format("{}: {}\n{}{}{} in all\n{}", arguments.output.string(),
                                     formatBytes(double(bytes)), reports, transfer.text,
@@ -461,6 +484,7 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
       ->option_text("OUT.png")
       ->group("Atlas");
   arguments->transfer.addTo(*app);
+  arguments->refine.addTo(*app);
   app->add_flag("--preview", arguments->preview,
                 "Within seconds, to look at how the patch lies: without shadows, on an id map of "
                 "1024 texels a side and, in pieces, of 100,000 vertices at most")

@@ -14,6 +14,7 @@
 #include "lambent/bi_scale/quoted_mesh.h"
 #include "lambent/bi_scale/uv_frames.h"
 #include "lambent/scene/flaps.h"
+#include "lambent/scene/split_edges.h"
 #include "lambent/synthesis/appearance.h"
 #include "lambent/synthesis/cross_field.h"
 #include "lambent/synthesis/lattice_map.h"
@@ -75,6 +76,16 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const scene::Scene& scene,
   if (chosen.empty())
     return report::badInput("the scene has no mesh to spread the patch over: all are mirrors");
   return chosen;
+}
+
+/// Metres of the surfaces that the patch's width covers; 0: they have no area.
+float widthOf(const scene::Scene& scene, const std::vector<std::uint32_t>& meshes,
+              const transfer::EncodedRtt& rtt, const SpreadOptions& options) {
+  double area = 0.0;
+  for (const std::uint32_t m : meshes) area += areaOf(scene.meshes[m]);
+  if (!(area > 0.0)) return 0.0f;
+  return options.patchWidth > 0.0f ? options.patchWidth
+                                   : automaticPatchWidth(area, rtt, options.mesoVertices);
 }
 
 /// Materials and textures that nothing uses any more would only make the file larger.
@@ -367,6 +378,32 @@ float automaticPatchWidth(double area, const transfer::EncodedRtt& rtt,
   return float(std::sqrt(area / (patches * aspect)));
 }
 
+Findings prepare(scene::Scene& scene, const transfer::EncodedRtt& rtt,
+                 const SpreadOptions& options) {
+  constexpr float kLongest = 0.5f;  // of the patch's period
+  constexpr std::size_t kBudget = 100'000;
+  Findings findings;
+  const auto chosen = chosenMeshes(scene, options);
+  if (!chosen || options.placement != Placement::Synthesized) return findings;
+  for (const std::uint32_t m : *chosen)
+    if (const std::size_t flaps = scene::dropFlaps(scene.meshes[m]); flaps > 0)
+      findings.push_back({Severity::Note, "flaps-dropped",
+                          quoted(scene.meshes[m], m) + ": " + std::to_string(flaps) +
+                              " pairs of triangles lay back to back on the surface and enclosed "
+                              "nothing: they are left out, since the patch would end at them",
+                          flaps});
+  const float width = widthOf(scene, *chosen, rtt, options);
+  const float period = width * std::min(1.0f, rtt.size.y() / rtt.size.x());
+  if (const std::size_t added = scene::splitLongEdges(scene, *chosen, kLongest * period, kBudget);
+      added > 0)
+    findings.push_back({Severity::Note, "edges-cut",
+                        "triangles larger than half of the patch were cut, which added " +
+                            std::to_string(added) +
+                            " vertices: the patch could not turn within them",
+                        added});
+  return findings;
+}
+
 Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::EncodedRtt& rtt,
                                          const SpreadOptions& options, const Progress& progress) {
   const auto chosen = chosenMeshes(scene, options);
@@ -375,16 +412,12 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
     return report::badUsage("the transfer has " + std::to_string(options.transfer.bands) +
                             " bands and the RTT " + std::to_string(rtt.bands) +
                             ": they have to be the same");
-  double area = 0.0;
-  for (const std::uint32_t m : *chosen) area += areaOf(scene.meshes[m]);
-  if (!(area > 0.0)) return report::badInput("the surface has no area to spread the patch over");
-  const float width = options.patchWidth > 0.0f
-                          ? options.patchWidth
-                          : automaticPatchWidth(area, rtt, options.mesoVertices);
-
   WithFindings<Spread> result;
   Spread& spread = result.value;
   Findings& findings = result.findings;
+  findings = prepare(scene, rtt, options);
+  const float width = widthOf(scene, *chosen, rtt, options);
+  if (!(width > 0.0f)) return report::badInput("the surface has no area to spread the patch over");
   Spreader spreader{scene, rtt, options, progress, findings, spread, {}, {}, {}};
   transport::Placement placement;
   std::vector<Placed> all;
@@ -392,13 +425,6 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
     SpreadReport& report = spread.reports.emplace_back();
     report.mesh = m;
     report.name = scene.meshes[m].name;
-    if (options.placement == Placement::Synthesized)
-      if (const std::size_t flaps = scene::dropFlaps(scene.meshes[m]); flaps > 0)
-        findings.push_back({Severity::Note, "flaps-dropped",
-                            quoted(scene.meshes[m], m) + ": " + std::to_string(flaps) +
-                                " pairs of triangles lay back to back on the surface and enclosed "
-                                "nothing: they are left out, since the patch would end at them",
-                            flaps});
     report.area = areaOf(scene.meshes[m]);
     report.patchWidth = width;
     Placed& placed = all.emplace_back();

@@ -105,4 +105,11 @@ float automaticPatchWidth(double area, const transfer::EncodedRtt& rtt, std::uin
 
 double areaOf(const scene::Mesh& mesh);  ///< m²
 
+/// Makes surfaces fit to be laid out with a patch, and says what it did: leaves out what a patch
+/// would end at (scene/flaps.h), and cuts triangles that are large beside its period, within which
+/// it could not turn. spreadPatch does it first of all; whoever looks at what the patch will lie on
+/// does it before that.
+Findings prepare(scene::Scene& scene, const transfer::EncodedRtt& rtt,
+                 const SpreadOptions& options);
+
 }  // namespace lambent::bi_scale

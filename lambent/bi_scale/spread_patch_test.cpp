@@ -77,6 +77,23 @@ TEST(SpreadPatch, FlapsOfAScanDoNotCutTheSurfaceAndAreSaid) {
   EXPECT_EQ(said->count, 10u);
 }
 
+TEST(SpreadPatch, TrianglesThatAreLargeBesideThePatchAreCutAndItIsSaid) {
+  SpreadOptions options = small();
+  options.layout = Layout::Lattice;
+  const auto spread =
+      spreadPatch(scene::sceneOf(scene::box(Vec3(2, 2, 2), 1)), paintedRtt(3, 16), options);
+  ASSERT_TRUE(spread);
+  const SpreadReport& report = spread->value.reports[0];
+  EXPECT_GT(report.vertices, 500u);
+  EXPECT_EQ(report.singularities, 8u);  // of quarter turns, at the corners
+  EXPECT_EQ(report.continued, 1.0);
+  EXPECT_LT(report.squeezed, 0.1);
+  const auto said = std::find_if(spread->findings.begin(), spread->findings.end(),
+                                 [](const Finding& f) { return f.code == "edges-cut"; });
+  ASSERT_NE(said, spread->findings.end());
+  EXPECT_GT(said->count, 500u);
+}
+
 TEST(SpreadPatch, MakesAnAssetThatCanBeWritten) {
   const Spread spread = spreadOrDie(scene::sceneOf(scene::torus(1, 0.4f, 40, 20)), small());
   const Status sound = asset::checkForWriting(spread.asset);
@@ -225,7 +242,7 @@ TEST(SpreadPatch, ATintStaysWhereItWasOnTheSurface) {
   scene::Material painted;
   painted.diffuse = Rgb(0.9f, 0.8f, 0.7f);
   painted.baseColorTexture = 0;
-  scene::Scene scene = scene::sceneOf(scene::uvSphere(1, 24, 16), painted);
+  scene::Scene scene = scene::sceneOf(scene::uvSphere(1, 48, 32), painted);
   scene::Texture& texture = scene.textures.emplace_back();
   texture.width = 128, texture.height = 64;
   for (int y = 0; y < 64; ++y)

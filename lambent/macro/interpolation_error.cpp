@@ -107,17 +107,15 @@ std::string meshInWords(const scene::Scene& scene, std::uint32_t mesh) {
 }
 
 Findings findingsOf(const InterpolationError& error, const scene::Scene& scene,
-                    const InterpolationErrorOptions& options) {
+                    const InterpolationErrorOptions& options, std::string_view remedy) {
   if (!(error.rms > options.tolerance)) return {};
   char size[48];
   std::snprintf(size, sizeof(size), "%.2g", error.rms);
   return {{Severity::Warning, "coarse-receivers",
            "triangles are too large for the shadows on them, most of all those of " +
                meshInWords(scene, error.worstMesh) + ": between its receivers light is off by " +
-               size +
-               " of what a white surface sends back under an even sky. --refine cuts "
-               "triangles where that is so, --texels bakes a mesh on a grid over its UVs, --texels "
-               "auto over a layout made for it",
+               size + " of what a white surface sends back under an even sky. " +
+               std::string(remedy),
            static_cast<std::uint64_t>(std::lround(error.beyond * double(error.samples)))}};
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lambent/report/finding.h"
@@ -66,8 +67,8 @@ Result<std::optional<InterpolationError>> interpolationError(
 /// How a finding calls a mesh: mesh "floor", or mesh 3 where it has no name.
 std::string meshInWords(const scene::Scene& scene, std::uint32_t mesh);
 
-/// "coarse-receivers", where the error is larger than the tolerance.
+/// "coarse-receivers", where the error is larger than the tolerance; ends with the `remedy`.
 Findings findingsOf(const InterpolationError& error, const scene::Scene& scene,
-                    const InterpolationErrorOptions& options);
+                    const InterpolationErrorOptions& options, std::string_view remedy);
 
 }  // namespace lambent::macro

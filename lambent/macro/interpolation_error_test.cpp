@@ -98,11 +98,11 @@ TEST(InterpolationError, FindsABoxOnAFloorOfTwoTriangles) {
   EXPECT_LT(small.rms, 0.025);
   EXPECT_EQ(large.worstMesh, 0u);
   EXPECT_GT(large.beyond, 0.2);
-  const Findings told = findingsOf(large, coarse, {});
+  const Findings told = findingsOf(large, coarse, {}, "--refine");
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0].code, "coarse-receivers");
   EXPECT_NE(told[0].message.find("\"floor\""), std::string::npos);
-  EXPECT_TRUE(findingsOf(small, fine, {}).empty());
+  EXPECT_TRUE(findingsOf(small, fine, {}, "--refine").empty());
 }
 
 // However large the floor is beside it.

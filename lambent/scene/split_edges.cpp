@@ -240,4 +240,24 @@ SplitScene splitEdges(const Scene& scene, const SceneEdges& edges,
   return split;
 }
 
+std::size_t splitLongEdges(Scene& scene, std::span<const std::uint32_t> meshes, float longest,
+                           std::size_t budget) {
+  std::size_t added = 0;
+  for (;;) {
+    const SceneEdges edges = edgesOf(scene);
+    std::vector<std::uint8_t> marks(edges.size(), 0);
+    bool any = false;
+    for (const std::uint32_t m : meshes)
+      for (const auto& three : edges.ofTriangle[m])
+        for (const std::uint32_t e : three)
+          if (e != SceneEdges::kNone && edges.lengths[e] > longest) marks[e] = any = true;
+    if (!any) return added;
+    closeMarks(edges, marks);
+    const std::size_t more = addedVertices(scene, edges, marks);
+    if (added + more > budget) return added;
+    scene = splitEdges(scene, edges, marks).scene;
+    added += more;
+  }
+}
+
 }  // namespace lambent::scene

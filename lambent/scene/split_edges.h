@@ -64,4 +64,10 @@ struct SplitScene {
 SplitScene splitEdges(const Scene& scene, const SceneEdges& edges,
                       std::span<const std::uint8_t> marks);
 
+/// Cuts the edges of `meshes` in their middles until none is longer than `longest` metres, or one
+/// more round would add more than `budget` vertices in all. Returns how many were added; other
+/// meshes are cut only where they share an edge.
+std::size_t splitLongEdges(Scene& scene, std::span<const std::uint32_t> meshes, float longest,
+                           std::size_t budget);
+
 }  // namespace lambent::scene

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -198,6 +199,28 @@ TEST(SplitEdges, BacksStayThoseOfTheirFronts) {
     EXPECT_EQ(mesh.alphas.back(), 0.25f);
     scene = std::move(split.scene);
   }
+}
+
+TEST(SplitLongEdges, NoneIsLeftAndTheSurfaceStays) {
+  Scene scene = sceneOf(box(Vec3(1, 2, 3), 1));
+  const double area = areaOf(scene.meshes[0]);
+  const std::size_t before = scene.meshes[0].positions.size();
+  const std::vector<std::uint32_t> all = {0};
+  const std::size_t added = splitLongEdges(scene, all, 0.3f, 100'000);
+  EXPECT_EQ(scene.meshes[0].positions.size(), before + added);
+  EXPECT_NEAR(areaOf(scene.meshes[0]), area, 1e-5 * area);
+  const SceneEdges edges = edgesOf(scene);
+  EXPECT_LE(*std::max_element(edges.lengths.begin(), edges.lengths.end()), 0.3f);
+  for (std::uint32_t e = 0; e < edges.size(); ++e) EXPECT_EQ(edges.usersOf(e).size(), 2u);
+  EXPECT_EQ(splitLongEdges(scene, all, 0.3f, 100'000), 0u);
+}
+
+TEST(SplitLongEdges, ABudgetIsKept) {
+  Scene scene = sceneOf(box(Vec3(1, 2, 3), 1));
+  const std::vector<std::uint32_t> all = {0};
+  const std::size_t added = splitLongEdges(scene, all, 1e-6f, 500);
+  EXPECT_LE(added, 500u);
+  EXPECT_GT(added, 100u);
 }
 
 }  // namespace

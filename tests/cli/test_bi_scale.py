@@ -97,6 +97,8 @@ class Spread(BiScaleTest):
             self.assertIn("tinted by", self.run_tool("info", "quad.glb").stdout)
             self.run_tool("shade", "quad.glb", "--light", "uniform", "-o", "quad.csv")
             for row in read_csv(self.path("quad.csv")):
+                if abs(row[0]) < 0.1:
+                    continue  # where the halves meet
                 strong, weak = (row[6], row[8]) if row[0] < 0 else (row[8], row[6])
                 self.assertGreater(strong, 5 * weak, how)
             for backend in ("gl", "cpu"):
@@ -147,7 +149,8 @@ class Spread(BiScaleTest):
         self.write("grey.png", png(4, 4, lambda x, y: (128, 128, 128)))
         for file, share, found in (("strokes.csv", 0.5, ()), ("strokes.obj", 0, {"steers-nothing"}),
                                    ("arrows.png", 1, ()), ("grey.png", 0, {"steers-nothing"})):
-            summary = self.spread("--direction", file, scene="quad.obj", output="quad.glb")
+            summary = self.spread("--direction", file, "--patch-width", 6, scene="quad.obj",
+                                  output="quad.glb")  # so large that no triangle is cut
             self.assertEqual(summary["surfaces"][0]["guided"], share, file)
             codes = {finding["code"] for finding in summary["findings"]}
             self.assertEqual(codes & {"steers-nothing"}, set(found), file)
@@ -181,7 +184,7 @@ class Spread(BiScaleTest):
         self.rtt("flat.png", "patch.rtt", *SMALL, "--depth", 0, "--albedo", 0.6,
                  "--encoding", "float32")
         self.write("ball.obj", ball_obj(24, 12))
-        self.spread("--transfer", "unshadowed")
+        self.spread("--transfer", "unshadowed", "--patch-width", 2)  # cuts no triangle
         self.bake("ball.obj", "plain.glb", "--transfer", "unshadowed", "--albedo", 0.6, "--bands", 3,
                   "--encoding", "float32")
         light = "disc:20,50,60,3/2/1+uniform:0.2"

@@ -1,4 +1,4 @@
-"""Between receivers: what `bake` says of shadows that fall there, and `--refine`."""
+"""Between receivers: what `bake` and `synthesize` say of shadows that fall there, and `--refine`."""
 
 from harness import USAGE, ToolTest, ball_obj, quad_obj, read_csv
 
@@ -86,6 +86,22 @@ class Refine(ToolTest):
         summary = self.baked("--texels", "8x8", "--refine", scene="quad.obj")
         self.assertEqual(summary["receivers"], 64)
         self.assertIsNone(summary["between_receivers"])
+
+    def test_what_carries_a_patch_gets_its_shadows(self):
+        self.run_tool("rtt", "stucco", "-o", "patch.rtt", "--positions", "16x16", "--views", 1, "--bands", 3,
+                      "--directions", 64, "--bounces", 1, "--quiet")
+
+        def spread(*options):
+            return self.run_json("synthesize", "floor.obj", "--rtt", "patch.rtt", "-o", "a.glb",
+                                 "--patch-width", 6, "--map-size", 128, "--vertices", 4000,
+                                 "--directions", 128, *options)
+
+        coarse, fine = spread("--refine=off"), spread()
+        said, = (f for f in coarse["findings"] if f["code"] == "coarse-receivers")
+        self.assertNotIn("--texels", said["message"])
+        self.assertIn("triangles-cut", self.codes(fine))
+        self.assertLess(fine["between_receivers"]["rms"], 0.5 * coarse["between_receivers"]["rms"])
+        self.assertIsNone(spread("--preview")["between_receivers"])
 
     def test_wrong_usage_is_said(self):
         for options, says in ((("--refine", "0"), "0.0001"), (("--refine", "nan"), "--refine"),
