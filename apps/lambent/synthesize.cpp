@@ -131,7 +131,7 @@ std::string reportText(const bi_scale::SpreadReport& r) {
   const bool alone = !r.layer && r.share == 1.0;
   std::string text = fmt::format("  {}: {:.1f} patches{}, each {:.4g} wide, at {} vertices\n",
                                  r.name.empty() ? "mesh " + std::to_string(r.mesh) : r.name,
-                                 r.patches, alone ? "" : fmt::format(" of {}", r.patch),
+                                 r.patches, alone || r.layer ? "" : fmt::format(" of {}", r.patch),
                                  double(r.patchWidth), formatCount(r.vertices));
   if (!alone) text += fmt::format("    seen on {:.3g}% of the surface\n", 100.0 * r.share);
   const auto atlas = [&] {

@@ -509,7 +509,7 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
     for (const Layer& layer : (*layers)[k]) {
       SpreadReport& report = spread.reports.emplace_back();
       report.mesh = layer.mesh;
-      report.name = scene.meshes[layer.base].name;
+      report.name = scene.meshes[layer.mesh].name;
       report.layer = true;
       report.share = layer.share;
       transport::LocalFrames& frames = placement.local.emplace_back();
