@@ -308,6 +308,13 @@ Status checkPatches(const SynthesizeRequest& arguments) {
   return Status::ok();
 }
 
+bool isGrey(const scene::Texture& picture) {
+  const std::vector<std::uint8_t>& rgba = picture.rgba;
+  for (std::size_t i = 0; i + 3 < rgba.size(); i += 4)
+    if (rgba[i] != rgba[i + 1] || rgba[i] != rgba[i + 2]) return false;
+  return true;
+}
+
 /// What lies over the first patch, and the mask.
 Status readPatchesOver(SynthesizeRequest& arguments, Console& console) {
   bi_scale::SpreadOptions& options = arguments.options;
@@ -327,6 +334,9 @@ Status readPatchesOver(SynthesizeRequest& arguments, Console& console) {
   auto mask = readPicture(arguments, arguments.mask);
   if (!mask) return mask.error();
   options.mask = std::move(*mask);
+  if (options.over.size() > 1 && isGrey(options.mask))
+    console.warn("mask-grey",
+                 "--mask is grey: its green is its red, and the third patch hides the second");
   return Status::ok();
 }
 

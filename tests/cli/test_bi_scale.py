@@ -160,6 +160,13 @@ class Spread(BiScaleTest):
         summary = self.spread("--rtt", "patch.rtt", "--mask", "black.png", scene="quad.obj")
         self.assertIn("mask-empty", {finding["code"] for finding in summary["findings"]})
         self.assertEqual(len(summary["surfaces"]), 1)
+        self.write("grey.png", png(8, 8, lambda x, y: (128, 128, 128)))
+        summary = self.spread("--rtt", "patch.rtt", "--rtt", "patch.rtt", "--mask", "grey.png",
+                              scene="quad.obj")
+        self.assertIn("mask-grey", {finding["code"] for finding in summary["findings"]})
+        shares = [surface["share"] for surface in summary["surfaces"]]
+        for share, expected in zip(shares, (0.25, 0.25, 0.5)):
+            self.assertAlmostEqual(share, expected, delta=0.01)
 
     def test_patches_and_mask_go_together(self):
         self.rtt()
