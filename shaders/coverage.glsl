@@ -1,6 +1,8 @@
 // Whether a surface is there at a fragment (scene::coverageAt): a mask is where its alpha reaches a
 // threshold; a blend is in as large a share of the sub-samples as its alpha says, by a number of the
-// pixel's own that the golden ratio turns from one sub-sample to the next. A pane's tint is its mean.
+// pixel's own that is turned from one sub-sample to the next: by the golden ratio, or powers of the
+// plastic number, so that of blends on each other each is there whether others are or not. A pane's
+// tint is its mean.
 //
 // Before this text stands base_color.glsl; after it, with a texture, where that lies.
 
@@ -51,5 +53,7 @@ bool isThere(float vertexAlpha, vec2 uv, vec3 fragment) {
   // What lies behind each other must not be there in the same sub-samples.
   int layer = veil.x * 1024 + int(fragment.z * 512.0);
   float number = veilNumber(ivec2(fragment.xy), layer);
-  return fract(number + 0.618033988 * float(veil.y)) < share;
+  int kind = veil.x % 3;
+  float turn = kind == 0 ? 0.618033988 : kind == 1 ? 0.754877666 : 0.569840291;
+  return fract(number + turn * float(veil.y)) < share;
 }

@@ -61,7 +61,7 @@ Status runBake(BakeRequest arguments, Console& console) {
   if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
   arguments.scene.layout = arguments.texels.wantsUvs();
-  auto scene = arguments.scene.load(console, files);
+  auto scene = arguments.scene.loadToBake(console, files);
   if (!scene) return scene.error();
 
   const macro::BakeOptions options = arguments.transfer.chosen(console);

@@ -166,7 +166,11 @@ Description describeBiScale(const asset::BiScaleSummary& biScale, std::uint64_t 
           : fmt::format("{:.4g}x{:.4g} tiles of its UVs", biScale.tiles.x(), biScale.tiles.y());
   const bool textured = biScale.tintWidth > 0;
   std::string tint;
-  if (textured)
+  if (biScale.layer)
+    tint = fmt::format(", a layer{}", textured ? fmt::format(" by a mask of {}x{} texels",
+                                                             biScale.tintWidth, biScale.tintHeight)
+                                               : "");
+  else if (textured)
     tint = fmt::format(", tinted by {}x{} texels", biScale.tintWidth, biScale.tintHeight);
   if (biScale.tintedVertices)
     tint += textured ? " and colours of vertices" : ", tinted by colours of vertices";
@@ -183,6 +187,7 @@ Description describeBiScale(const asset::BiScaleSummary& biScale, std::uint64_t 
             {"interreflected", biScale.interreflected},
             {"channels", biScale.channels},
             {"encoding", nameOf(biScale.encoding)},
+            {"layer", biScale.layer},
             {"tint",
              {{"texels", {biScale.tintWidth, biScale.tintHeight}},
               {"vertex_colors", biScale.tintedVertices}}}};

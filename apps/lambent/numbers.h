@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "lambent/report/result.h"
 
@@ -67,6 +68,24 @@ CLI::Option* addNumber(CLI::App& app, const std::string& name, T& value, NumberR
       description);
   if constexpr (std::is_same_v<T, Number>) option->default_str(numbers::inShort(double(value)));
   return option;
+}
+
+/// The same of an option that may be given several times.
+inline CLI::Option* addNumbers(CLI::App& app, const std::string& name, std::vector<float>& values,
+                               NumberRange range, const std::string& description) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          name,
+          [&values, range, name](const std::vector<std::string>& texts) {
+            values.clear();
+            for (const std::string& text : texts) {
+              const Result<double> parsed = parseNumber(text, range);
+              if (!parsed) throw CLI::ValidationError(name, parsed.error().message);
+              values.push_back(float(*parsed));
+            }
+          },
+          description)
+      ->allow_extra_args(false);
 }
 
 }  // namespace lambent::tool

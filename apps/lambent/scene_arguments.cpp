@@ -121,4 +121,17 @@ Result<scene::Scene> SceneArguments::load(Console& console, NamedFiles& files) c
   return scene;
 }
 
+Result<scene::Scene> SceneArguments::loadToBake(Console& console, NamedFiles& files) const {
+  auto scene = load(console, files);
+  if (!scene) return scene;
+  const std::size_t layers =
+      std::erase_if(scene->meshes, [](const scene::Mesh& mesh) { return mesh.layer; });
+  if (layers > 0)
+    console.report(
+        {{Severity::Note, "layers-left-out",
+          fmt::format("{} layers of patches lie on other meshes, which are taken alone", layers),
+          layers}});
+  return scene;
+}
+
 }  // namespace lambent::tool

@@ -34,6 +34,8 @@ struct SceneArguments {
   /// Reads the scene (or the scene inside a baked asset) and reports what was odd in it.
   /// `files` gets to know what the scene names, and is checked again.
   Result<scene::Scene> load(Console& console, NamedFiles& files) const;
+  /// The same to be baked: without the layers of patches that a baked asset has.
+  Result<scene::Scene> loadToBake(Console& console, NamedFiles& files) const;
 };
 
 }  // namespace lambent::tool

@@ -50,7 +50,9 @@ struct SynthesizeRequest {
   SceneArguments scene;
   TransferArguments transfer;
   RefineArguments refine;
-  std::filesystem::path rtt, output, atlasPicture;
+  std::vector<std::filesystem::path> rtts;
+  std::filesystem::path mask, output, atlasPicture;
+  std::vector<float> patchWidths;
   std::vector<std::string> meshes;
   std::optional<Size> tiles;
   bi_scale::SpreadOptions options;
@@ -78,6 +80,8 @@ constexpr std::string_view kSynthesizeExamples = R"(Examples:
       No synthesis: the vase's own UVs repeat the patch.
   lambent synthesize jumper.glb --rtt knit.rtt -o jumper2.glb --tint own
       The jumper's own texture and vertex colours dye the wool.
+  lambent synthesize path.glb --rtt sand.rtt --rtt pebbles.rtt --mask mask.png -o path2.glb
+      Sand, and pebbles over it where the picture is red, or white; on its greys they fade.
   lambent render bunny.glb --light sky.exr -o a.png --macro off
       What the macro-scale brings: without it the bunny glows.
 )";
@@ -126,9 +130,12 @@ std::string aligned(const bi_scale::SpreadReport& r) {
 }
 
 std::string reportText(const bi_scale::SpreadReport& r) {
-  std::string text = fmt::format("  {}: {:.1f} patches, each {:.4g} wide, at {} vertices\n",
+  const bool alone = !r.layer && r.share == 1.0;
+  std::string text = fmt::format("  {}: {:.1f} patches{}, each {:.4g} wide, at {} vertices\n",
                                  r.name.empty() ? "mesh " + std::to_string(r.mesh) : r.name,
-                                 r.patches, double(r.patchWidth), formatCount(r.vertices));
+                                 r.patches, alone || r.layer ? "" : fmt::format(" of {}", r.patch),
+                                 double(r.patchWidth), formatCount(r.vertices));
+  if (!alone) text += fmt::format("    seen on {:.3g}% of the surface\n", 100.0 * r.share);
   const auto atlas = [&] {
     text += fmt::format(
         "    atlas: {} charts{}, stretch {:.3f} (worst chart {:.3f}), {:.0f}% of "
@@ -162,6 +169,9 @@ std::string reportText(const bi_scale::SpreadReport& r) {
 Json asJson(const bi_scale::SpreadReport& r) {
   return {{"mesh", r.mesh},
           {"name", r.name},
+          {"patch", r.patch},
+          {"layer", r.layer},
+          {"share", r.share},
           {"area", r.area},
           {"patches", r.patches},
           {"patch_width", r.patchWidth},
@@ -197,11 +207,14 @@ void hasten(SynthesizeRequest& arguments, const scene::Scene& scene,
   constexpr std::uint32_t kVertices = 100'000;
   constexpr int kTexels = 1024;
   bi_scale::SpreadOptions& options = arguments.options;
-  if (!(options.patchWidth > 0.0f)) {
-    double area = 0.0;
-    for (const std::uint32_t m : options.meshes) area += bi_scale::areaOf(scene.meshes[m]);
-    options.patchWidth = bi_scale::automaticPatchWidth(area, rtt, options.mesoVertices);
-  }
+  double area = 0.0;
+  for (const std::uint32_t m : options.meshes) area += bi_scale::areaOf(scene.meshes[m]);
+  const auto widthOf = [&](const transfer::EncodedRtt& patch, float asked) {
+    return asked > 0.0f ? asked : bi_scale::automaticPatchWidth(area, patch, options.mesoVertices);
+  };
+  for (bi_scale::PatchOver& over : options.over)
+    over.patchWidth = widthOf(over.rtt, over.patchWidth.value_or(options.patchWidth));
+  options.patchWidth = widthOf(rtt, options.patchWidth);
   if (options.mesoVertices == 0) options.mesoVertices = kVertices;
   options.mesoVertices = std::min(options.mesoVertices, kVertices);
   options.atlas.size = std::min(options.atlas.size, kTexels);
@@ -292,6 +305,56 @@ Result<Looked> refineReceivers(const RefineArguments& arguments, scene::Scene& s
   return lookBetweenReceivers(arguments, {scene, *rays, kEdges, *receivers, vertices, ""}, console);
 }
 
+/// The patches, which are one more than the channels of the mask that show them.
+Status checkPatches(const SynthesizeRequest& arguments) {
+  const std::size_t count = arguments.rtts.size();
+  if (count > 4)
+    return badUsage(
+        fmt::format("--rtt {} times: a mask has red, green and blue, for three patches "
+                    "over the first",
+                    count));
+  if (count > 1 && arguments.mask.empty())
+    return badUsage("several --rtt: --mask says where each is to be seen");
+  if (count == 1 && !arguments.mask.empty())
+    return badUsage("--mask shows a second patch over the first: give it as one more --rtt");
+  if (arguments.patchWidths.size() > count)
+    return badUsage(
+        fmt::format("--patch-width {} times, for {} --rtt", arguments.patchWidths.size(), count));
+  return Status::ok();
+}
+
+bool isGrey(const scene::Texture& picture) {
+  const std::vector<std::uint8_t>& rgba = picture.rgba;
+  for (std::size_t i = 0; i + 3 < rgba.size(); i += 4)
+    if (rgba[i] != rgba[i + 1] || rgba[i] != rgba[i + 2]) return false;
+  return true;
+}
+
+/// What lies over the first patch, and the mask.
+Status readPatchesOver(SynthesizeRequest& arguments, Console& console) {
+  bi_scale::SpreadOptions& options = arguments.options;
+  const std::vector<float>& widths = arguments.patchWidths;
+  if (!widths.empty()) options.patchWidth = widths[0];
+  for (std::size_t k = 1; k < arguments.rtts.size(); ++k) {
+    auto rtt = console.stage("read RTT", [&] {
+      return asset::readRtt(arguments.rtts[k], arguments.scene.reading.forAsset());
+    });
+    if (!rtt) return rtt.error();
+    bi_scale::PatchOver& over = options.over.emplace_back();
+    over.albedo = meso::effectiveAlbedo(transfer::decode(*rtt));
+    over.rtt = std::move(*rtt);
+    if (k < widths.size()) over.patchWidth = widths[k];
+  }
+  if (arguments.mask.empty()) return Status::ok();
+  auto mask = readPicture(arguments, arguments.mask);
+  if (!mask) return mask.error();
+  options.mask = std::move(*mask);
+  if (options.over.size() > 1 && isGrey(options.mask))
+    console.warn("mask-grey",
+                 "--mask is grey: its green is its red, and the third patch hides the second");
+  return Status::ok();
+}
+
 Status run(SynthesizeRequest arguments, Console& console) {
   if (Status s = console.takeInput(arguments.scene.path, "SCENE"); !s) return s;
   if (Status s = console.takeOutput(arguments.output, "-o", ".glb"); !s) return s;
@@ -299,17 +362,20 @@ Status run(SynthesizeRequest arguments, Console& console) {
   files.writes("--output", arguments.output, {".glb"});
   files.writes("--atlas-picture", arguments.atlasPicture, {".png"});
   files.reads("SCENE", arguments.scene.path);
-  files.reads("--rtt", arguments.rtt);
+  for (const std::filesystem::path& rtt : arguments.rtts) files.reads("--rtt", rtt);
+  files.reads("--mask", arguments.mask);
   files.reads("--tint", tintFile(arguments));
   files.reads("--direction", arguments.steering.file);
   if (Status distinct = files.check(); !distinct) return distinct;
   if (Status sane = arguments.transfer.check(); !sane) return sane;
+  if (Status sane = checkPatches(arguments); !sane) return sane;
   auto rtt = console.stage("read RTT", [&] {
-    return asset::readRtt(arguments.rtt, arguments.scene.reading.forAsset());
+    return asset::readRtt(arguments.rtts[0], arguments.scene.reading.forAsset());
   });
   if (!rtt) return rtt.error();
+  if (Status over = readPatchesOver(arguments, console); !over) return over;
   arguments.scene.sides = scene_io::Sides::One;  // a patch has no other side
-  auto scene = arguments.scene.load(console, files);
+  auto scene = arguments.scene.loadToBake(console, files);
   if (!scene) return scene.error();
   if (const std::size_t gaps = makeWhole(*scene); gaps > 0) {
     const Finding lost{Severity::Warning, "alpha-ignored",
@@ -398,18 +464,27 @@ Verb addSynthesize(CLI::App& root, ConsoleOptions& common) {
   app->group("Verbs");
   app->footer(std::string(kSynthesizeExamples));
   arguments->scene.addTo(*app);
-  app->add_option("--rtt", arguments->rtt, "The patch: what 'lambent rtt' wrote")
+  app->add_option("--rtt", arguments->rtts,
+                  "The patch: what 'lambent rtt' wrote. Up to three more lie over it, where --mask "
+                  "shows them")
       ->option_text("PATCH.rtt")
+      ->allow_extra_args(false)
       ->required();
+  app->add_option("--mask", arguments->mask,
+                  "A picture over the mesh's own UVs: the second --rtt is seen where its red is 1, "
+                  "the third where its green is, the fourth where its blue is; between 0 and 1 "
+                  "what lies below shows through. Of a grey picture red is its grey")
+      ->option_text("FILE.png|FILE.jpg");
   app->add_option("-o,--output", arguments->output,
                   "The asset to write, a .glb; - : standard output")
       ->option_text("ASSET.glb")
       ->required();
-  addNumber(*app, "--patch-width", options.patchWidth, {0.0, 1e6},
-            "How much of the surface the patch's width covers, in the model's units; 0: "
-            "about 200 patches over the whole surface, or as many as --vertices can show")
+  addNumbers(*app, "--patch-width", arguments->patchWidths, {0.0, 1e6},
+             "How much of the surface the patch's width covers, in the model's units; 0: about 200 "
+             "patches over the whole surface, or as many as --vertices can show. Several times: of "
+             "each --rtt; of those without their own it is the first")
       ->option_text("LENGTH")
-      ->capture_default_str()
+      ->default_str("0")
       ->group("Placement");
   addChoice(
       *app, "--map", options.placement,

@@ -79,6 +79,7 @@ json toJson(const BiScale& biScale, const scene::Mesh& mesh, scene_io::GltfBuild
                  {"scale", biScale.patch.scale},
                  {"tangents", gltf.addAccessor(bytesOf(biScale.tangents), Component::Float, "VEC3",
                                                biScale.tangents.size())}};
+  if (mesh.layer) object["layer"] = true;
   if (const IdMap* map = biScale.patch.idMap())
     object["idMap"] = {{"width", map->width},
                        {"height", map->height},

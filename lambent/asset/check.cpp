@@ -96,6 +96,8 @@ std::string meshLabel(const scene::Scene& scene, std::size_t mesh) {
 std::optional<std::string> faultOf(const EncodedMesh& transfer, const scene::Mesh& mesh,
                                    const EncodedField& field) {
   using Found = std::optional<std::string>;
+  if (mesh.layer && !std::holds_alternative<BiScale>(transfer))
+    return "is a layer, and holds no meso-structure";
   return std::visit(
       transfer::ForEachKind{
           [](const transfer::NoTransfer&) -> Found { return std::nullopt; },

@@ -89,9 +89,9 @@ TEST_F(AssetHostile, OrdinaryGltfIsSentToTheBake) {
 }
 
 TEST_F(AssetHostile, MessagesSayWhatToDo) {
-  expectRefused("version: 2.0 is newer than 1.5, which this Lambent reads: use a newer Lambent",
+  expectRefused("version: 2.0 is newer than 1.6, which this Lambent reads: use a newer Lambent",
                 [](json& d) { root(d)["version"] = "2.0"; });
-  expectRefused("version: 0.9 is older than 1.5: bake the scene anew",
+  expectRefused("version: 0.9 is older than 1.6: bake the scene anew",
                 [](json& d) { root(d)["version"] = "0.9"; });
   expectRefused("108 numbers where 4 receivers × 1 channels × 9 coefficients need 36",
                 [](json& d) { primitive(d, 0)["vectors"]["channels"] = 1; });

@@ -58,6 +58,14 @@ std::string JsonFields::string(std::string_view key) {
   return {};
 }
 
+bool JsonFields::boolean(std::string_view key) {
+  const json* value = find(key);
+  if (!value) return false;
+  if (value->is_boolean()) return value->get<bool>();
+  complain(key, "is not true or false");
+  return false;
+}
+
 JsonFields JsonFields::object(std::string_view key) {
   static const json kEmpty = json::object();
   const json* value = find(key);

@@ -22,6 +22,7 @@ class JsonFields {
   std::int64_t integer(std::string_view key, std::int64_t least, std::int64_t most);
   double number(std::string_view key, double least, double most);
   std::string string(std::string_view key);
+  bool boolean(std::string_view key);
   JsonFields object(std::string_view key);
   std::vector<double> numbers(std::string_view key, std::size_t most);  ///< an array of finite ones
 

@@ -156,8 +156,12 @@ Result<Asset> read(const std::filesystem::path& path, const ReadOptions& options
     scene::Mesh& mesh = asset.scene.meshes[i];
     if (Status status = readTexelUvs(*file, primitive, *object, mesh); !status)
       return status.error();
-    EncodedMesh transfer =
-        meshFrom(JsonFields(*object, place, fault), accessors, mesh, asset.transfer.kind);
+    JsonFields fields(*object, place, fault);
+    if (fields.has("biScale")) {
+      JsonFields biScale = fields.object("biScale");
+      mesh.layer = biScale.has("layer") && biScale.boolean("layer");
+    }
+    EncodedMesh transfer = meshFrom(fields, accessors, mesh, asset.transfer.kind);
     if (!fault.empty()) return report::badInput(name + ": " + fault);
     if (const auto wrong = faultOf(transfer, mesh, asset.transfer))
       return report::badInput(name + ": " + place + "." + *wrong);  // it begins with the member

@@ -210,6 +210,10 @@ TEST(AssetWrite, RefusesWhatItCouldNotRead) {
   std::get<transfer::BiScale<Numbers>>(asset.transfer.meshes[1]).bands = 2;
   refused(asset, "biScale.bands: is 2, and its RTT's 3");
 
+  asset = unoccludedSquare();
+  asset.scene.meshes[0].layer = true;
+  refused(asset, "is a layer, and holds no meso-structure");
+
   EXPECT_EQ(write(unoccludedSquare(), folder / "asset.gltf").error().kind, ErrorKind::BadUsage);
   EXPECT_EQ(write(unoccludedSquare(), folder / "no/such/folder.glb").error().kind,
             ErrorKind::BadInput);

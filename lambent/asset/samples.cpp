@@ -252,6 +252,24 @@ Asset relief() {
   return asset;
 }
 
+Asset layered() {
+  Asset asset = biScale();
+  scene::Mesh& layer = asset.scene.meshes[1];
+  layer.name = "layer";
+  layer.positions = asset.scene.meshes[0].positions;
+  layer.triangles.resize(1);
+  layer.layer = true;
+  layer.material = 1;
+  std::get<transfer::BiScale<Numbers>>(asset.transfer.meshes[1]).receivers = atVertices(layer);
+  scene::Material& material = asset.scene.materials.emplace_back(grey("layer"));
+  material.alphaMode = scene::AlphaMode::Blend;
+  for (const Vec2& uv : layer.uvs) {
+    layer.colors.push_back(Rgb::Ones());
+    layer.alphas.push_back(uv.x());
+  }
+  return asset;
+}
+
 Asset keptShadowed() {
   constexpr float kThrough = 0.5f;
   const Rgb all = kThrough * Rgb(1.5f, 1.25f, 1.125f);
@@ -338,6 +356,7 @@ std::vector<std::pair<std::string, Asset>> samples() {
           {"every-layout.glb", everyLayout()},
           {"bi-scale.glb", biScale()},
           {"relief.glb", relief()},
+          {"layered.glb", layered()},
           {"kept-shadowed.glb", keptShadowed()},
           {"second-uvs.glb", secondUvs()}};
 }

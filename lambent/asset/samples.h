@@ -27,6 +27,10 @@ Asset biScale();
 /// The same with heights: bands of the patch that are as deep as half its period, low and high.
 Asset relief();
 
+/// The same patch twice over one square: by an id map and, in a layer of one triangle whose vertices'
+/// alphas are u, by its UVs.
+Asset layered();
+
 /// Interreflected transfer with the shadowed one beside: a square with vectors at its vertices
 /// (float16; three channels, shadowed one) and a glossy one with vectors and matrices of 3 × 3
 /// bands on 2×2 texels (float32). A veil lets through half of the light that an open square would

@@ -75,11 +75,25 @@ TEST(Spec, BiScaleIsWhatTheSchemaSays) {
   }
 }
 
+TEST(Spec, ALayerIsWhatTheSchemaSays) {
+  const test::Folder folder;
+  ASSERT_TRUE(write(layered(), folder / "asset.glb"));
+  const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
+  const auto biScaleOf = [&](int mesh) {
+    return document["meshes"][mesh]["primitives"][0]["extensions"][test::kName]["biScale"];
+  };
+  EXPECT_FALSE(biScaleOf(0).contains("layer"));
+  EXPECT_EQ(biScaleOf(1)["layer"], true);
+  const json described = schema("mesh.primitive")["properties"]["biScale"]["properties"];
+  EXPECT_EQ(described["layer"]["type"], "boolean");
+  EXPECT_EQ(document["materials"][1]["alphaMode"], "BLEND");
+}
+
 TEST(Spec, KeptShadowedTransferIsWhatTheSchemaSays) {
   const test::Folder folder;
   ASSERT_TRUE(write(keptShadowed(), folder / "asset.glb"));
   const json document = json::parse(test::Glb::parse(test::bytesOf(folder / "asset.glb")).json);
-  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.5");
+  EXPECT_EQ(document["extensions"][test::kName]["version"], "1.6");
   const json described = schema("mesh.primitive");
   for (std::size_t i = 0; i < 2; ++i)
     expectDescribed(document["meshes"][i]["primitives"][0]["extensions"][test::kName], described,

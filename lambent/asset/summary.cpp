@@ -65,6 +65,7 @@ void describe(const transfer::NoTransfer&, Kind, MeshSummary&) {}
 /// Of a mesh with meso-structure.
 void describeTint(const scene::Scene& scene, const scene::Mesh& mesh, BiScaleSummary& to) {
   to.tintedVertices = !mesh.colors.empty();
+  to.layer = mesh.layer;
   const int texture = scene::materialOf(scene, mesh).baseColorTexture;
   if (texture < 0 || std::size_t(texture) >= scene.textures.size()) return;
   to.tintWidth = scene.textures[std::size_t(texture)].width;

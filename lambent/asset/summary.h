@@ -54,6 +54,7 @@ struct BiScaleSummary {
   std::uint64_t bytes = 0;            ///< of the matrices
   int tintWidth = 0, tintHeight = 0;  ///< texels of the texture that tints it; 0: none
   bool tintedVertices = false;        ///< colours of its vertices do
+  bool layer = false;                 ///< it lies on another mesh
 };
 
 struct MeshSummary {

@@ -70,6 +70,7 @@ inline void expectSame(const scene::Mesh& a, const scene::Mesh& b) {
   EXPECT_TRUE(sameBits(a.normals, b.normals));
   EXPECT_TRUE(sameBits(a.uvs, b.uvs));
   EXPECT_TRUE(sameBits(a.texelUvs, b.texelUvs));
+  EXPECT_EQ(a.layer, b.layer);
   EXPECT_TRUE(sameBits(a.colors, b.colors));
   EXPECT_EQ(a.triangles, b.triangles);
 }

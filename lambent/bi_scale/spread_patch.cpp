@@ -11,9 +11,11 @@
 
 #include <Eigen/Geometry>
 
+#include "lambent/bi_scale/layers.h"
 #include "lambent/bi_scale/quoted_mesh.h"
 #include "lambent/bi_scale/uv_frames.h"
 #include "lambent/scene/flaps.h"
+#include "lambent/scene/layers.h"
 #include "lambent/scene/split_edges.h"
 #include "lambent/synthesis/appearance.h"
 #include "lambent/synthesis/cross_field.h"
@@ -78,16 +80,6 @@ Result<std::vector<std::uint32_t>> chosenMeshes(const scene::Scene& scene,
   return chosen;
 }
 
-/// Metres of the surfaces that the patch's width covers; 0: they have no area.
-float widthOf(const scene::Scene& scene, const std::vector<std::uint32_t>& meshes,
-              const transfer::EncodedRtt& rtt, const SpreadOptions& options) {
-  double area = 0.0;
-  for (const std::uint32_t m : meshes) area += areaOf(scene.meshes[m]);
-  if (!(area > 0.0)) return 0.0f;
-  return options.patchWidth > 0.0f ? options.patchWidth
-                                   : automaticPatchWidth(area, rtt, options.mesoVertices);
-}
-
 /// Materials and textures that nothing uses any more would only make the file larger.
 void dropUnused(scene::Scene& scene) {
   std::vector<int> materialAt(scene.materials.size(), -1), textureAt(scene.textures.size(), -1);
@@ -129,6 +121,11 @@ double matrixError(const transfer::BiScale<transfer::Floats>& exact,
               : 0.0;
 }
 
+std::string nameOf(const transfer::EncodedRtt& rtt) {
+  return rtt.name.empty() ? "meso-structure" : rtt.name;
+}
+
+/// Lays one patch over meshes.
 struct Spreader {
   scene::Scene& scene;
   const transfer::EncodedRtt& rtt;
@@ -139,6 +136,28 @@ struct Spreader {
   std::optional<synthesis::Appearance> appearance;  ///< made once for all meshes
   synthesis::PatchPieces pieces;                    ///< with it
   std::optional<synthesis::PatchSymmetry> symmetry;
+
+  /// Over the mesh of `placed`, which wears it.
+  Status lay(float width, SpreadReport& report, Placed& placed, std::vector<Vec3>& tangents) {
+    report.patch = nameOf(rtt);
+    report.patchWidth = width;
+    count(placed, report);
+    const Status status = options.placement == Placement::OwnUvs
+                              ? byOwnUvs(placed.mesh, report, placed, tangents)
+                              : bySynthesis(placed.mesh, report, placed, tangents);
+    if (status) count(placed, report);
+    return status;
+  }
+
+  /// How much of it there is.
+  void count(Placed& placed, SpreadReport& report) const {
+    const scene::Mesh& mesh = scene.meshes[placed.mesh];
+    placed.patch.scale = report.patchWidth / rtt.size.x();
+    report.area = areaOf(mesh);
+    report.patches = report.area / (double(placed.patch.scale) * placed.patch.scale * rtt.size.x() *
+                                    rtt.size.y());
+    report.vertices = std::uint32_t(mesh.positions.size());
+  }
 
   Status byOwnUvs(std::uint32_t index, SpreadReport& report, Placed& placed,
                   std::vector<Vec3>& tangents) {
@@ -378,9 +397,99 @@ float automaticPatchWidth(double area, const transfer::EncodedRtt& rtt,
   return float(std::sqrt(area / (patches * aspect)));
 }
 
+namespace {
+
+/// Metres of a surface of `area` m² that a patch's width covers, if so many are asked for.
+float widthOf(const transfer::EncodedRtt& patch, float asked, double area,
+              const SpreadOptions& options) {
+  return asked > 0.0f ? asked : automaticPatchWidth(area, patch, options.mesoVertices);
+}
+
+float askedFor(const PatchOver& over, const SpreadOptions& options) {
+  return over.patchWidth.value_or(options.patchWidth);
+}
+
+double areaOfAll(const scene::Scene& scene, const std::vector<std::uint32_t>& meshes) {
+  double area = 0.0;
+  for (const std::uint32_t m : meshes) area += areaOf(scene.meshes[m]);
+  return area;
+}
+
+/// The shortest period of all patches, metres of the surface.
+float shortestPeriod(double area, const transfer::EncodedRtt& rtt, const SpreadOptions& options) {
+  const auto period = [&](const transfer::EncodedRtt& patch, float asked) {
+    return widthOf(patch, asked, area, options) * std::min(1.0f, patch.size.y() / patch.size.x());
+  };
+  float shortest = period(rtt, options.patchWidth);
+  for (const PatchOver& over : options.over)
+    shortest = std::min(shortest, period(over.rtt, askedFor(over, options)));
+  return shortest;
+}
+
+/// What is wrong with what is asked for, or all is well.
+Status checkPatches(const transfer::EncodedRtt& rtt, const SpreadOptions& options) {
+  if (options.over.size() > 3)
+    return report::badUsage(
+        "a mask has red, green and blue: " + std::to_string(options.over.size()) +
+        " patches over the first are " + "more than it can show");
+  const auto fits = [&](const transfer::EncodedRtt& one) {
+    return one.bands == options.transfer.bands;
+  };
+  if (!fits(rtt))
+    return report::badUsage("the transfer has " + std::to_string(options.transfer.bands) +
+                            " bands and the RTT " + std::to_string(rtt.bands) +
+                            ": they have to be the same");
+  for (const PatchOver& over : options.over)
+    if (!fits(over.rtt))
+      return report::badUsage("the first RTT has " + std::to_string(rtt.bands) + " bands and \"" +
+                              over.rtt.name + "\" " + std::to_string(over.rtt.bands) +
+                              ": patches over one mesh have to have the same");
+  return Status::ok();
+}
+
+/// The layers of each patch over the first.
+Result<std::vector<std::vector<Layer>>> addLayers(scene::Scene& scene, const SpreadOptions& options,
+                                                  std::vector<SpreadReport>& bases,
+                                                  Findings& findings) {
+  std::vector<std::vector<Layer>> all(options.over.size());
+  for (SpreadReport& base : bases) {
+    std::vector<std::uint32_t> added;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const PatchOver& over = options.over[k];
+      auto layer = addLayer(scene, base.mesh, nameOf(over.rtt), over.albedo.max(0.0f).min(1.0f),
+                            {options.mask, int(k)}, options.tint);
+      if (!layer) return layer.error();
+      if (*layer) {
+        added.push_back((*layer)->mesh);
+        all[k].push_back(std::move(**layer));
+      } else {
+        findings.push_back({Severity::Warning, "mask-empty",
+                            quoted(scene.meshes[base.mesh], base.mesh) + ": the mask shows \"" +
+                                nameOf(over.rtt) + "\" nowhere on it: its channel is 0 there",
+                            1});
+      }
+    }
+    const std::vector<double> shares = sharesSeen(scene, base.mesh, added);
+    base.share = shares[0];
+    std::size_t next = 1;
+    for (std::vector<Layer>& layers : all)
+      if (!layers.empty() && layers.back().base == base.mesh) layers.back().share = shares[next++];
+  }
+  return all;
+}
+
+/// Leaves of a layer that was laid out whole what the mask touches.
+void cut(scene::Mesh& mesh, const Layer& layer, std::vector<Vec3>& tangents) {
+  std::vector<Vec3> left;
+  for (const std::uint32_t v : scene::makeLayer(mesh, layer.triangles)) left.push_back(tangents[v]);
+  tangents = std::move(left);
+}
+
+}  // namespace
+
 Findings prepare(scene::Scene& scene, const transfer::EncodedRtt& rtt,
                  const SpreadOptions& options) {
-  constexpr float kLongest = 0.5f;  // of the patch's period
+  constexpr float kLongest = 0.5f;  // of the shortest period
   constexpr std::size_t kBudget = 100'000;
   Findings findings;
   const auto chosen = chosenMeshes(scene, options);
@@ -392,10 +501,10 @@ Findings prepare(scene::Scene& scene, const transfer::EncodedRtt& rtt,
                               " pairs of triangles lay back to back on the surface and enclosed "
                               "nothing: they are left out, since the patch would end at them",
                           flaps});
-  const float width = widthOf(scene, *chosen, rtt, options);
-  const float period = width * std::min(1.0f, rtt.size.y() / rtt.size.x());
-  if (const std::size_t added = scene::splitLongEdges(scene, *chosen, kLongest * period, kBudget);
-      added > 0)
+  const double area = areaOfAll(scene, *chosen);
+  if (!(area > 0.0)) return findings;
+  const float longest = kLongest * shortestPeriod(area, rtt, options);
+  if (const std::size_t added = scene::splitLongEdges(scene, *chosen, longest, kBudget); added > 0)
     findings.push_back({Severity::Note, "edges-cut",
                         "triangles larger than half of the patch were cut, which added " +
                             std::to_string(added) +
@@ -408,44 +517,53 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
                                          const SpreadOptions& options, const Progress& progress) {
   const auto chosen = chosenMeshes(scene, options);
   if (!chosen) return chosen.error();
-  if (options.transfer.bands != rtt.bands)
-    return report::badUsage("the transfer has " + std::to_string(options.transfer.bands) +
-                            " bands and the RTT " + std::to_string(rtt.bands) +
-                            ": they have to be the same");
+  if (Status sane = checkPatches(rtt, options); !sane) return sane.error();
   WithFindings<Spread> result;
   Spread& spread = result.value;
   Findings& findings = result.findings;
   findings = prepare(scene, rtt, options);
-  const float width = widthOf(scene, *chosen, rtt, options);
-  if (!(width > 0.0f)) return report::badInput("the surface has no area to spread the patch over");
-  Spreader spreader{scene, rtt, options, progress, findings, spread, {}, {}, {}};
-  transport::Placement placement;
-  std::vector<Placed> all;
+  const double area = areaOfAll(scene, *chosen);
+  if (!(area > 0.0)) return report::badInput("the surface has no area to spread the patch over");
   for (const std::uint32_t m : *chosen) {
     SpreadReport& report = spread.reports.emplace_back();
     report.mesh = m;
     report.name = scene.meshes[m].name;
-    report.area = areaOf(scene.meshes[m]);
-    report.patchWidth = width;
-    Placed& placed = all.emplace_back();
-    placed.mesh = m;
-    placed.patch.scale = width / rtt.size.x();
-    report.patches = report.area / (double(placed.patch.scale) * placed.patch.scale * rtt.size.x() *
-                                    rtt.size.y());
-    auto worn = wearPatch(scene, m, rtt.name.empty() ? "meso-structure" : rtt.name,
-                          options.albedo.max(0.0f).min(1.0f), options.tint);
+  }
+  const auto layers = addLayers(scene, options, spread.reports, findings);
+  if (!layers) return layers.error();
+
+  transport::Placement placement;
+  std::vector<Placed> all;
+  Spreader first{scene, rtt, options, progress, findings, spread, {}, {}, {}};
+  for (SpreadReport& report : spread.reports) {
+    auto worn = wearPatch(scene, report.mesh, nameOf(rtt), options.albedo.max(0.0f).min(1.0f),
+                          options.tint);
     if (!worn) return worn.error();
     findings.insert(findings.end(), worn->begin(), worn->end());
     transport::LocalFrames& frames = placement.local.emplace_back();
-    frames.mesh = m;
-    const Status status = options.placement == Placement::OwnUvs
-                              ? spreader.byOwnUvs(m, report, placed, frames.tangents)
-                              : spreader.bySynthesis(m, report, placed, frames.tangents);
-    if (!status) return status.error();
-    placed.patch.scale = report.patchWidth / rtt.size.x();
-    report.patches = report.area / (double(placed.patch.scale) * placed.patch.scale * rtt.size.x() *
-                                    rtt.size.y());
-    report.vertices = std::uint32_t(scene.meshes[m].positions.size());
+    frames.mesh = report.mesh;
+    Placed& placed = all.emplace_back(Placed{report.mesh, {}});
+    const float width = widthOf(rtt, options.patchWidth, area, options);
+    if (Status s = first.lay(width, report, placed, frames.tangents); !s) return s.error();
+  }
+  for (std::size_t k = 0; k < layers->size(); ++k) {
+    const PatchOver& over = options.over[k];
+    Spreader spreader{scene, over.rtt, options, progress, findings, spread, {}, {}, {}};
+    for (const Layer& layer : (*layers)[k]) {
+      SpreadReport& report = spread.reports.emplace_back();
+      report.mesh = layer.mesh;
+      report.name = scene.meshes[layer.mesh].name;
+      report.layer = true;
+      report.share = layer.share;
+      transport::LocalFrames& frames = placement.local.emplace_back();
+      frames.mesh = layer.mesh;
+      Placed& placed = all.emplace_back(Placed{layer.mesh, {}});
+      placed.patch.rtt = int(k) + 1;
+      const float width = widthOf(over.rtt, askedFor(over, options), area, options);
+      if (Status s = spreader.lay(width, report, placed, frames.tangents); !s) return s.error();
+      cut(scene.meshes[layer.mesh], layer, frames.tangents);
+      spreader.count(placed, report);
+    }
   }
   dropUnused(scene);
 
@@ -471,6 +589,7 @@ Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::Enc
         matrixError(std::get<transfer::BiScale<transfer::Floats>>(field.meshes[all[k].mesh]),
                     std::get<transfer::BiScale<transfer::Numbers>>(transfer.meshes[all[k].mesh]));
   transfer.rtts = {rtt};
+  for (const PatchOver& over : options.over) transfer.rtts.push_back(over.rtt);
   spread.asset.scene = std::move(scene);
   return result;
 }

@@ -33,6 +33,13 @@ enum class Layout {
   Pieces,     ///< grown of pieces that fit: synthesis/synthesize.h
 };
 
+/// One more patch, over the first.
+struct PatchOver {
+  transfer::EncodedRtt rtt;
+  Rgb albedo = Rgb::Constant(0.5f);  ///< as SpreadOptions::albedo, though nothing meets it
+  std::optional<float> patchWidth;   ///< none: as SpreadOptions::patchWidth
+};
+
 struct SpreadOptions {
   std::vector<std::uint32_t> meshes;  ///< that carry the patch; empty: all that are no mirrors
   Placement placement = Placement::Synthesized;
@@ -55,6 +62,10 @@ struct SpreadOptions {
   Rgb albedo =
       Rgb::Constant(0.5f);  ///< of the patch as a whole: what it sends on to other surfaces
   Tint tint;                ///< what of the meshes' own colours varies the patch's
+  /// At most three, each over those before it, as far as red, green and blue of a picture over the
+  /// meshes' own UVs say: layers (scene/layers.h). All else is as it is for the first.
+  std::vector<PatchOver> over;
+  scene::Texture mask;  ///< of `over`
   macro::BakeOptions transfer;
   transfer::Encoding matrixEncoding = transfer::Encoding::Snorm8;
   transfer::Encoding vectorEncoding =
@@ -65,7 +76,10 @@ struct SpreadOptions {
 struct SpreadReport {
   std::uint32_t mesh = 0;
   std::string name;
-  double area = 0.0;        ///< m²
+  std::string patch;  ///< its name
+  bool layer = false;
+  double share = 1.0;       ///< of the whole surface, where it is seen
+  double area = 0.0;        ///< m², of a layer where the mask touches it
   double patches = 0.0;     ///< how many times the patch's area fits
   float patchWidth = 0.0f;  ///< metres
   std::uint32_t vertices = 0, mesoVertices = 0;
@@ -93,8 +107,8 @@ struct Spread {
 };
 
 /// The patch's colours and relief take the place of the material, texture and vertex colours of the
-/// meshes that carry it, but for their tint. Everything else in the scene is baked at its vertices. BadInput
-/// and BadUsage name the mesh.
+/// meshes that carry it, but for their tint. Layers stand at the end of the scene. Everything else is
+/// baked at its vertices. BadInput and BadUsage name the mesh.
 Result<WithFindings<Spread>> spreadPatch(scene::Scene scene, const transfer::EncodedRtt& rtt,
                                          const SpreadOptions& options,
                                          const Progress& progress = {});

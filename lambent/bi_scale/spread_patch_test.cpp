@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lambent/asset/check.h"
+#include "lambent/scene/coverage.h"
 #include "lambent/scene/shapes.h"
 #include "lambent/sh/basis.h"
 #include "lambent/sh/zonal.h"
@@ -327,6 +328,96 @@ TEST(SpreadPatch, WhatATintedSurfaceSendsOnHasItsColour) {
   EXPECT_GT(redness(OwnTint{}), 1.01);
 }
 
+/// A ball, with UVs, before a wall; the mask's red is 1 on half of it.
+struct Masked {
+  scene::Scene scene;
+  SpreadOptions options = small();
+  Masked() {
+    scene::addTo(scene, scene::uvSphere(1, 24, 16), {});
+    scene::addTo(scene, scene::translated(scene::gridPlane(4, 4, 8, 8), Vec3(0, -1.2f, 0)), {});
+    options.meshes = {0};
+    scene::Texture& mask = options.mask;
+    mask.width = 32, mask.height = 1;
+    for (int x = 0; x < 32; ++x)
+      for (const int code : {x < 16 ? 255 : 0, 0, 0, 255}) mask.rgba.push_back(std::uint8_t(code));
+  }
+};
+
+TEST(SpreadPatch, ALayerLeavesWhatItLiesOnAsItWas) {
+  Masked masked;
+  const Spread alone = spreadOrDie(masked.scene, masked.options);
+  transfer::EncodedRtt over = paintedRtt(3, 16);
+  over.name = "squares";
+  masked.options.over = {{over, Rgb(0.9f, 0.2f, 0.1f), 0.3f}};
+  const Spread both = spreadOrDie(masked.scene, masked.options);
+  const Status sound = asset::checkForWriting(both.asset);
+  EXPECT_TRUE(sound) << sound.error().message;
+  ASSERT_EQ(both.asset.scene.meshes.size(), 3u);
+  EXPECT_TRUE(both.asset.scene.meshes[2].layer);
+
+  const auto matricesOf = [](const Spread& spread, std::uint32_t mesh) -> const BiScale& {
+    return std::get<BiScale>(spread.asset.transfer.meshes[mesh]);
+  };
+  const auto bytesOf = [&](const Spread& spread) {
+    return matricesOf(spread, 0).matrices.find(transfer::Kind::Interreflected)->numbers.byte;
+  };
+  EXPECT_EQ(bytesOf(both), bytesOf(alone));
+  EXPECT_EQ(matricesOf(both, 0).patch.idMap()->ids, matricesOf(alone, 0).patch.idMap()->ids);
+  const auto numbersOf = [](const Spread& spread) {
+    const auto& ground =
+        std::get<transfer::Surface<transfer::Numbers>>(spread.asset.transfer.meshes[1]);
+    return ground.responses.find(spread.asset.transfer.kind)->diffuse->vectors.numbers.half;
+  };
+  EXPECT_EQ(numbersOf(both), numbersOf(alone)) << "light that bounces off is the base's";
+
+  ASSERT_EQ(both.asset.transfer.rtts.size(), 2u);
+  EXPECT_EQ(matricesOf(both, 2).patch.rtt, 1);
+  ASSERT_EQ(both.reports.size(), 2u);
+  EXPECT_EQ(both.reports[0].patch, "spots");
+  EXPECT_EQ(both.reports[1].patch, "squares");
+  EXPECT_NEAR(both.reports[0].share, 0.5, 0.01);
+  EXPECT_NEAR(both.reports[1].share, 0.5, 0.01);
+  EXPECT_NEAR(both.reports[1].patchWidth, 0.3f, 1e-6f);
+  EXPECT_LT(both.reports[1].area, 0.65 * both.reports[0].area);
+}
+
+// Charts lie elsewhere, and so does the mask in the picture; on the surface it is where it was.
+TEST(SpreadPatch, AMaskStaysWhereItWasOnTheSurface) {
+  Masked masked;
+  masked.options.transfer.kind = transfer::Kind::Unshadowed;
+  for (const Layout layout : {Layout::Pieces, Layout::Lattice}) {
+    masked.options.layout = layout;
+    masked.options.over = {{paintedRtt(), Rgb::Constant(0.5f), std::nullopt}};
+    const Spread spread = spreadOrDie(masked.scene, masked.options);
+    const scene::Mesh& layer = spread.asset.scene.meshes[2];
+    std::size_t there = 0, wrong = 0;
+    for (std::uint32_t t = 0; t < layer.triangles.size(); ++t) {
+      const scene::SurfacePoint point = scene::surfaceAt(spread.asset.scene, 2, t, 0.3f, 0.3f);
+      if (std::abs(point.position.y()) > 0.95f) continue;  // all of it on a few texels
+      const float alpha = scene::coverageAt(spread.asset.scene, 2, t, 0.3f, 0.3f);
+      wrong += alpha > 0.1f && alpha < 0.9f;
+      there += alpha >= 0.9f;
+    }
+    EXPECT_GT(there, layer.triangles.size() / 2);
+    EXPECT_LT(wrong, layer.triangles.size() / 10) << "the borders of the mask";
+    // The same patch, laid the same way.
+    const auto& below = std::get<BiScale>(spread.asset.transfer.meshes[0]);
+    const auto& above = std::get<BiScale>(spread.asset.transfer.meshes[2]);
+    EXPECT_EQ(below.patch.idMap()->ids, above.patch.idMap()->ids);
+  }
+}
+
+TEST(SpreadPatch, AMaskThatShowsAPatchNowhereIsSaid) {
+  Masked masked;
+  masked.options.transfer.kind = transfer::Kind::Unshadowed;
+  masked.options.over.resize(2, {paintedRtt(), Rgb::Constant(0.5f), std::nullopt});
+  const auto spread = spreadPatch(masked.scene, paintedRtt(), masked.options);
+  ASSERT_TRUE(spread);
+  EXPECT_EQ(spread->value.asset.scene.meshes.size(), 3u);
+  EXPECT_TRUE(std::any_of(spread->findings.begin(), spread->findings.end(),
+                          [](const Finding& f) { return f.code == "mask-empty"; }));
+}
+
 TEST(SpreadPatch, RefusesWhatCannotBe) {
   scene::Material mirror;
   mirror.mirror = Rgb::Ones();
@@ -342,6 +433,16 @@ TEST(SpreadPatch, RefusesWhatCannotBe) {
   options.meshes = {3};
   refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 1)), paintedRtt(), options);
   ASSERT_FALSE(refused);
+  options = small();
+  options.over.resize(4, {paintedRtt(), Rgb::Ones(), std::nullopt});
+  refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 1)), paintedRtt(), options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::BadUsage);
+  options.over.resize(1);
+  options.over[0].rtt = paintedRtt(4);
+  refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 1)), paintedRtt(), options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::BadUsage);
   options = small();
   int updates = 0;
   refused = spreadPatch(scene::sceneOf(scene::icosphere(1, 3)), paintedRtt(), options,

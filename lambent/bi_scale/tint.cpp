@@ -104,6 +104,7 @@ scene::Texture laidOut(const scene::Texture& from, std::span<const Vec2> uvs,
   flat.uvs = mesh.uvs;
   const std::size_t texels = std::size_t(side) * std::size_t(side);
   std::vector<Rgb> sums(texels, Rgb::Zero());
+  std::vector<float> alphas(texels, 0.0f);
   std::vector<std::uint32_t> counts(texels, 0);
   for (const scene::Triangle& t : mesh.triangles)
     scene::visitTexels(
@@ -112,6 +113,7 @@ scene::Texture laidOut(const scene::Texture& from, std::span<const Vec2> uvs,
           const Vec2 uv =
               float(1.0 - u - v) * uvs[t[0]] + float(u) * uvs[t[1]] + float(v) * uvs[t[2]];
           sums[texel] += scene::sampleBaseColor(from, uv);
+          alphas[texel] += scene::sampleAlpha(from, uv);
           ++counts[texel];
         });
   std::vector<std::uint8_t> full(texels);
@@ -125,8 +127,10 @@ scene::Texture laidOut(const scene::Texture& from, std::span<const Vec2> uvs,
   to.rgba.resize(4 * texels, 255);
   for (std::size_t i = 0; i < texels; ++i) {
     if (nearest[i] == scene::kNobody) continue;
-    const Rgb mean = sums[nearest[i]] / float(counts[nearest[i]]);
+    const float count = float(counts[nearest[i]]);
+    const Rgb mean = sums[nearest[i]] / count;
     for (std::size_t c = 0; c < 3; ++c) to.rgba[4 * i + c] = srgbCode(mean[Eigen::Index(c)]);
+    to.rgba[4 * i + 3] = std::uint8_t(std::lround(255.0f * alphas[nearest[i]] / count));
   }
   return to;
 }

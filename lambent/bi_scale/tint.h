@@ -31,7 +31,7 @@ using Tint = std::variant<NoTint, OwnTint, PictureTint>;
 Result<Findings> wearPatch(scene::Scene& scene, std::uint32_t mesh, std::string_view name,
                            const Rgb& reflectance, const Tint& tint);
 
-/// What `from` shows by `uvs` (one for each vertex), over the UVs of `mesh`, which lie in the unit
+/// What `from` shows by `uvs` (one for each vertex), its alpha too, over the UVs of `mesh`, which lie in the unit
 /// square: on as many texels as show it as finely as it is, in the mean over the surface, from
 /// `least` to `most` a side. Each is the mean of places within it that triangles hold; those without
 /// one are as the nearest that has one. Charts that are two texels apart do not mix.

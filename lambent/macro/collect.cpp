@@ -115,12 +115,19 @@ int channelsFor(const scene::Scene& scene, const PlacedReceivers& receivers, Kin
     if (painted || !isGrey(material.mirror) || !isGrey(material.transmitted)) return 3;
   }
   if (kind != Kind::Interreflected) return 1;
-  for (std::size_t m = 0; m < receivers.meshes.size(); ++m)
-    if (receivers.meshes[m].textured && !hasGreyColours(scene, scene.meshes[m])) return 3;
-  const auto allGrey = [](const std::vector<Rgb>& colours) {
+  const auto allGrey = [](std::span<const Rgb> colours) {
     return std::all_of(colours.begin(), colours.end(), isGrey);
   };
-  return allGrey(receivers.diffuse) && allGrey(receivers.glossy) ? 1 : 3;
+  for (std::size_t m = 0; m < receivers.meshes.size(); ++m) {
+    if (scene.meshes[m].layer) continue;  // nothing meets it and takes its colour
+    const PlacedReceivers::PerMesh& own = receivers.meshes[m];
+    if (own.textured && !hasGreyColours(scene, scene.meshes[m])) return 3;
+    const auto ofMesh = [&](const std::vector<Rgb>& colours) {
+      return std::span(colours).subspan(own.first, own.count);
+    };
+    if (!allGrey(ofMesh(receivers.diffuse)) || !allGrey(ofMesh(receivers.glossy))) return 3;
+  }
+  return 1;
 }
 
 transfer::MeshTransfer<Floats> transferOf(const Simulation& s, std::uint32_t meshIndex,

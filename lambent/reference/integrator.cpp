@@ -21,6 +21,7 @@
 
 #include "lambent/math/directions.h"
 #include "lambent/reference/scattering.h"
+#include "lambent/scene/coverage.h"
 
 namespace lambent::reference {
 namespace {
@@ -39,7 +40,8 @@ Integrator::Integrator(const scene::Scene& scene, const trace::RayScene& rays,
       environment_(environment),
       options_(options),
       emitters_(scene),
-      veils_(scene) {
+      veils_(scene),
+      layers_(scene) {
   for (const scene::Material& material : scene.materials) hasMirrors_ |= material.isMirror();
 }
 
@@ -88,6 +90,18 @@ std::optional<trace::Hit> Integrator::met(const Vec3& origin, const Vec3& direct
   return hit;
 }
 
+/// Of the layers on a place one, or what they lie on: by chance, as far as each is there.
+trace::Hit Integrator::uppermost(trace::Hit hit, Sampler& sampler) const {
+  if (!layers_.any()) return hit;
+  for (const scene::Layers::Place& on : layers_.above(hit.mesh, hit.triangle, hit.u, hit.v)) {
+    const float there = scene::coverageAt(scene_, on.mesh, on.triangle, on.u, on.v);
+    if (!(sampler.next().x() < there)) continue;
+    hit.mesh = on.mesh, hit.triangle = on.triangle, hit.u = on.u, hit.v = on.v;
+    break;
+  }
+  return hit;
+}
+
 Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint,
                                    Sampler& sampler, Rgb* haze) const {
   for (;; ++mirrors) {
@@ -97,8 +111,9 @@ Integrator::End Integrator::follow(Vec3 origin, Vec3 direction, int mirrors, Rgb
               *haze);
     if (!hit) return Escaped{origin, direction, mirrors};
     if (hit->backFace) return Blocked{};
+    const trace::Hit top = haze ? uppermost(*hit, sampler) : *hit;
     const scene::SurfacePoint point =
-        scene::surfaceAt(scene_, hit->mesh, hit->triangle, hit->u, hit->v);
+        scene::surfaceAt(scene_, top.mesh, top.triangle, top.u, top.v);
     if (!scene_.materials[scene_.meshes[hit->mesh].material].isMirror())
       return Surface{point, -direction, mirrors};
     if (mirrors == kMostMirrors) return Blocked{};

@@ -10,6 +10,7 @@
 #include "lambent/reference/scattering.h"
 #include "lambent/reference/shadowed_air.h"
 #include "lambent/scene/camera.h"
+#include "lambent/scene/layers.h"
 #include "lambent/trace/ray_scene.h"
 #include "lambent/trace/veils.h"
 
@@ -44,13 +45,14 @@ class Integrator {
     Vec3 toViewer;  ///< back along the ray that arrived
     int mirrors;    ///< on the way
   };
-  /// Where a ray ends when mirrors are followed, and what they left of the light in `tint`; and air,
-  /// if `haze` is asked for: what it added.
+  /// Where a ray ends when mirrors are followed, and what they left of the light in `tint`; and, if
+  /// `haze` is asked for, as eyes see it: through air, which adds that, and with layers.
   using End = std::variant<Blocked, Escaped, Surface>;
   End follow(Vec3 origin, Vec3 direction, int mirrors, Rgb& tint, Sampler& sampler,
              Rgb* haze = nullptr) const;
   std::optional<trace::Hit> met(const Vec3& origin, const Vec3& direction, Rgb& tint,
                                 Sampler& sampler) const;
+  trace::Hit uppermost(trace::Hit hit, Sampler& sampler) const;
   void passAir(const scene::Ray& ray, std::optional<float> distance, int mirrors, Rgb& tint,
                Rgb& haze) const;
   Rgb radianceBehind(const Escaped& escaped) const;
@@ -66,6 +68,7 @@ class Integrator {
   PathTraceOptions options_;
   Emitters emitters_;
   trace::Veils veils_;
+  scene::Layers layers_;
   std::optional<ShadowedAir> shafts_;
   Vec3 towardsSun_ = Vec3::UnitY();  ///< of shafts_
   bool hasMirrors_ = false;

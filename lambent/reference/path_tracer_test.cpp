@@ -460,6 +460,29 @@ TEST(Picture, CoverageAndBackground) {
   EXPECT_EQ(full->variance.at(0, 0).maxCoeff(), 0);
 }
 
+// A ball in a furnace, under a layer that is half there.
+TEST(Picture, ShowsLayersAsFarAsTheyAreThere) {
+  scene::Scene scene = scene::sceneOf(scene::icosphere(1, 4), diffuseMaterial(Rgb::Constant(0.8f)));
+  scene::Mesh layer = scene.meshes[0];
+  layer.layer = true;
+  layer.material = 1;
+  scene.meshes.push_back(std::move(layer));
+  scene::Material& half = scene.materials.emplace_back(diffuseMaterial(Rgb(0.2f, 0.6f, 0.8f)));
+  half.alphaMode = scene::AlphaMode::Blend;
+  half.opacity = 0.5f;
+  const World world(std::move(scene));
+  PathTraceOptions options;
+  options.samples = 64;
+  const Environment sky = Environment::uniform(Rgb::Ones());
+  const auto made = picture(world.scene, world.rays, sky, frontCamera(), 32, 32, options);
+  ASSERT_TRUE(made);
+  Rgb mean = Rgb::Zero();
+  for (int y = 12; y < 20; ++y)
+    for (int x = 12; x < 20; ++x) mean += made->mean.at(x, y) / 64.0f;
+  EXPECT_LT((mean - Rgb(0.5f, 0.7f, 0.8f)).abs().maxCoeff(), 0.02f) << mean.transpose();
+  EXPECT_EQ(made->mean.alpha[16 * 32 + 16], 1);
+}
+
 TEST(Picture, HasTheSameBytesForAnyNumberOfThreads) {
   scene::Scene scene = periscope();
   scene::Material glossy;

@@ -1,7 +1,8 @@
 // A picture by one ray for each sub-sample. What is interpolated is what sloan2002precomputed §6
 // interpolates on the GPU: over a triangle (or between texels) the exit radiance of a diffuse
 // surface, and the lobe-convolved coefficients of transferred radiance of a glossy one, which are
-// evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A mirror shows what
+// evaluated per sub-sample (eq. 12). Base colour is looked up per sub-sample. A ray meets what
+// layers lie on, and sees them, uppermost first, each in the share that is there. A mirror shows what
 // the mirrored ray meets, lit as anything that is seen, and the environment where that leaves;
 // mirrors show mirrors, a few in a row. With meso-structure it is the light that arrives at it that
 // is interpolated, and B(q, v) that is looked up (sloan2003biscale §5). Under a sharp Sun each
@@ -13,6 +14,7 @@
 #include <map>
 
 #include "lambent/reference/shadowed_air.h"
+#include "lambent/scene/layers.h"
 #include "lambent/shade/lit_mesh.h"
 #include "lambent/shade/lit_patch.h"
 #include "lambent/shade/picture_frame.h"
@@ -49,6 +51,7 @@ struct LitScene {
   const asset::Asset& asset;
   const trace::RayScene& rays;
   const trace::Veils veils;
+  const scene::Layers layers;
   const light::Environment& environment;
   const shade::PictureOptions& options;
   shade::SampleWidth width;
@@ -113,6 +116,26 @@ struct LitScene {
                (options.air ? options.air->seenBehind(point.position, direction, shown) : shown);
   }
 
+  /// What leaves the place that a ray met, with all that lies on it.
+  Rgb seenAt(const trace::Hit& hit, const Vec3& toViewer, const Sight& sight) const {
+    Rgb sum = Rgb::Zero();
+    float through = 1.0f;
+    if (layers.any() && !hit.backFace) {
+      for (const scene::Layers::Place& place : layers.above(hit.mesh, hit.triangle, hit.u, hit.v)) {
+        const float there =
+            scene::coverageAt(asset.scene, place.mesh, place.triangle, place.u, place.v);
+        if (!(there > 0.0f)) continue;
+        trace::Hit on = hit;
+        on.mesh = place.mesh, on.triangle = place.triangle;
+        on.u = place.u, on.v = place.v;
+        sum += through * there * exitRadiance(on, toViewer, sight);
+        through *= 1.0f - there;
+        if (!(through > 0.0f)) return sum;
+      }
+    }
+    return sum + through * exitRadiance(hit, toViewer, sight);
+  }
+
   /// Nearest first, until nothing is seen through what was met.
   SeenThrough seen(const scene::Ray& ray, const Sight& sight) const {
     SeenThrough out;
@@ -127,7 +150,7 @@ struct LitScene {
       }
       const bool veil = veils.any() && veils.has(hit->mesh);
       const Rgb share = veil ? Rgb(through * veils.coverage(*hit)) : through;
-      Rgb radiance = exitRadiance(*hit, -ray.direction, sight);
+      Rgb radiance = seenAt(*hit, -ray.direction, sight);
       if (options.air) radiance = options.air->seen(ray.direction, hit->distance, radiance);
       if (sight.shafts) radiance -= sight.shafts->missing(ray, hit->distance, sight.sun->direction);
       out.radiance += share * radiance;
@@ -153,9 +176,15 @@ Result<image::Image> relitPicture(const asset::Asset& asset, const sh::RgbCoeffi
   Result<trace::RayScene> rays = trace::RayScene::build(asset.scene);
   if (!rays) return rays.error();
 
-  LitScene lit{asset,       *rays,   trace::Veils(asset.scene),
-               environment, options, shade::sampleWidth(camera, options.height, options.samples),
-               {},          {}};
+  LitScene lit{asset,
+               *rays,
+               trace::Veils(asset.scene),
+               scene::Layers(asset.scene),
+               environment,
+               options,
+               shade::sampleWidth(camera, options.height, options.samples),
+               {},
+               {}};
   shade::RttPyramids pyramids(asset.transfer, options.showing.filter);
   for (std::uint32_t m = 0; m < asset.transfer.meshes.size(); ++m) {
     lit.meshes.push_back(shade::lightSurface(asset, m, light, options.showing, options.sun));

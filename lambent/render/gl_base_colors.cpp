@@ -58,11 +58,9 @@ void GlBaseColors::bindTable() const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, srgbTable_.name());
 }
 
-void GlBaseColors::bindCoverage(const Program& program, std::uint32_t mesh, int sample,
-                                bool gaps) const {
-  const scene::Passing passing = gaps ? passings_[mesh] : scene::Passing::Nothing;
+void GlBaseColors::bindCoverage(const Program& program, std::uint32_t mesh, int sample) const {
   const scene::Material& material = scene_->materials[std::size_t(scene_->meshes[mesh].material)];
-  const bool whole = passing == scene::Passing::Nothing;
+  const bool whole = !hasGaps(mesh);
   program.set("alphaMode", whole ? 0 : int(material.alphaMode));
   program.set("alphaRule", material.opacity, material.alphaCutoff);
   program.set("kept", whole ? 1.0f : std::clamp(1.0f - material.transmitted.mean(), 0.0f, 1.0f));

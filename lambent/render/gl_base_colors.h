@@ -26,8 +26,8 @@ class GlBaseColors {
 
   /// Whether a mesh may be there in parts alone.
   bool hasGaps(std::uint32_t mesh) const { return passings_[mesh] != scene::Passing::Nothing; }
-  /// For a program that holds coverage.glsl. `gaps` false: the mesh is taken as whole.
-  void bindCoverage(const Program& program, std::uint32_t mesh, int sample, bool gaps = true) const;
+  /// For a program that holds coverage.glsl.
+  void bindCoverage(const Program& program, std::uint32_t mesh, int sample) const;
 
  private:
   /// Its index, or −1.

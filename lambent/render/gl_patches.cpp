@@ -35,7 +35,7 @@ constexpr int kMostLevels = 16;  // as in rtt_look_up.glsl
 struct PatchVertex {
   float position[3], u;
   float normal[3], v;
-  float tangent[3], unused;
+  float tangent[3], alpha;
 };
 
 struct PatchTriangle {
@@ -55,7 +55,7 @@ std::vector<PatchVertex> gatherVertices(const scene::Mesh& mesh, const BiScale& 
                         {n.x(), n.y(), n.z()},
                         uv.y(),
                         {t.x(), t.y(), t.z()},
-                        0.0f});
+                        mesh.alphas.empty() ? 1.0f : mesh.alphas[from]});
   }
   return vertices;
 }
@@ -228,39 +228,37 @@ Status GlPatches::addIdMap(std::uint32_t mesh) {
   return checkGl("uploading an id map");
 }
 
-GlPatches::ProgramKey GlPatches::programOf(int index, const Rtt& rtt, bool filter) const {
-  const EncodedRtt& encoded = asset_->transfer.rtts[std::size_t(index)];
-  return {encoded.bands, encoded.values.encoding, filter, rtt.relief != Vec2::Zero()};
-}
-
-Status GlPatches::addProgram(const ProgramKey& key) {
-  if (programs_.contains(key)) return Status::ok();
-  const auto [bands, encoding, filter, relief] = key;
-  // Place, normal, tangent, texture coordinates and tint are interpolated as well.
+Status GlPatches::addProgram(const Shape& shape) {
+  if (programs_.contains(shape)) return Status::ok();
+  const auto [bands, encoding, filter, relief, gaps] = shape;
+  // Place, normal, tangent, texture coordinates, tint and alpha are interpolated as well.
   GLint mostVaryings = 0;
   glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &mostVaryings);
-  const bool interpolated = 4 * (groupsOf(bands) + 4) <= mostVaryings;
+  const bool interpolated = 4 * (groupsOf(bands) + 4 + int(gaps)) <= mostVaryings;
   const std::string defines = fmt::format(
       "#define LAMBENT_GROUPS {}\n#define LAMBENT_INTERPOLATED {:d}\n#define LAMBENT_FILTER {:d}\n"
-      "#define LAMBENT_RELIEF {:d}\n"
+      "#define LAMBENT_RELIEF {:d}\n#define LAMBENT_ALPHA {:d}\n"
       "#define LAMBENT_LIGHT_PLACE int\n#define LAMBENT_RTT_PLACE int\n#define LAMBENT_ID_MAP 1\n"
       "{}\n{}\n",
-      groupsOf(bands), interpolated, filter, relief, numbersDefine(encoding),
+      groupsOf(bands), interpolated, filter, relief, gaps, numbersDefine(encoding),
       unrolledDefines(bands, encoding));
   std::vector<std::string> fragment = {defines, "#define LAMBENT_MAP 1"};
+  const auto include = [&](const char* name) { fragment.emplace_back(shaderSource(name)); };
   for (const char* name :
        {"incident.glsl", "corner_weights.glsl", "rtt_response.glsl", "view_square.glsl",
         "rtt_footprint.glsl", "rtt_look_up.glsl", "tangent_frame.glsl", "shading_normal.glsl",
-        "patch_place.glsl", "sample_alpha.glsl", "base_color.glsl", "base_color_map.glsl",
-        "patch.frag.glsl"})
-    fragment.emplace_back(shaderSource(name));
+        "patch_place.glsl", "sample_alpha.glsl", "base_color.glsl"})
+    include(name);
+  if (gaps) include("coverage.glsl");
+  include("base_color_map.glsl");
+  include("patch.frag.glsl");
   const Program::Stage stages[] = {{GL_VERTEX_SHADER,
                                     "patch.vert.glsl",
                                     {defines, std::string(shaderSource("patch.vert.glsl"))}},
                                    {GL_FRAGMENT_SHADER, "patch.frag.glsl", std::move(fragment)}};
   Result<Program> program = Program::make(stages);
   if (!program) return program.error();
-  programs_.emplace(key, std::move(*program));
+  programs_.emplace(shape, std::move(*program));
   return Status::ok();
 }
 
@@ -276,8 +274,8 @@ Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
     rtts_.emplace(biScale.patch.rtt, std::move(*made));
   }
   if (Status s = addIdMap(index); !s) return s;
-  if (Status s = addProgram(programOf(biScale.patch.rtt, rtts_.at(biScale.patch.rtt), filter)); !s)
-    return s;
+  const bool relief = rtts_.at(biScale.patch.rtt).relief != Vec2::Zero();
+  if (Status s = addProgram(shapeOf(index, relief, filter)); !s) return s;
 
   const std::size_t perVertex =
       std::max(sizeof(PatchVertex), shade::rttStride(rtt.bands) * sizeof(float));
@@ -301,7 +299,7 @@ Status GlPatches::add(std::uint32_t index, TransferOnGpu& transfer) {
                                             rtts_.at(biScale.patch.rtt).scales, kind);
     if (!light) return light.error();
     draw.light = std::move(*light);
-    draws_.push_back(std::move(draw));
+    draws_.insert(mesh.layer ? draws_.begin() : draws_.end(), std::move(draw));
     first += count;
   }
   return Status::ok();
@@ -315,8 +313,10 @@ Status GlPatches::choose(const shade::Showing& showing) {
       if (!one) return one.error();
       made.emplace(index, std::move(*one));
     }
-    for (const auto& [index, rtt] : made)
-      if (Status s = addProgram(programOf(index, rtt, showing.filter)); !s) return s;
+    for (const Draw& draw : draws_) {
+      const bool relief = made.at(biScaleOf(draw.mesh).patch.rtt).relief != Vec2::Zero();
+      if (Status s = addProgram(shapeOf(draw.mesh, relief, showing.filter)); !s) return s;
+    }
     rtts_ = std::move(made);
   }
   showing_ = showing;
@@ -349,7 +349,8 @@ void GlPatches::draw(const GlView& view, const GlBaseColors& colors, GLuint vert
     const BiScale& biScale = biScaleOf(draw.mesh);
     const EncodedRtt& encoded = rttOf(draw.mesh);
     const Rtt& rtt = rtts_.at(biScale.patch.rtt);
-    const Program& program = programs_.at(programOf(biScale.patch.rtt, rtt, showing_.filter));
+    const bool relief = rtt.relief != Vec2::Zero();
+    const Program& program = programs_.at(shapeOf(draw.mesh, relief, showing_.filter));
     program.use();
     program.setMatrix("clipFromWorld", view.clipFromWorld.data());
     program.set("eye", view.eye.x(), view.eye.y(), view.eye.z(), view.eye.w());
@@ -366,11 +367,12 @@ void GlPatches::draw(const GlView& view, const GlBaseColors& colors, GLuint vert
     for (std::size_t k = 0; k < rtt.levels.size(); ++k)
       program.set(fmt::format("levels[{}]", k).c_str(), rtt.levels[k].width, rtt.levels[k].height,
                   rtt.levels[k].first, 0);
-    if (rtt.relief != Vec2::Zero()) {
+    if (relief) {
       program.set("relief", rtt.relief.x(), rtt.relief.y());
       glBindTextureUnit(2, rtt.heights.name());
     }
     colors.bind(program, draw.mesh);
+    if (colors.hasGaps(draw.mesh)) colors.bindCoverage(program, draw.mesh, view.sample);
     program.set("hasTints", int(draw.tints.name() != 0));
     glBindTextureUnit(3, rtt.texture.name());
     glBindTextureUnit(1, biScale.patch.idMap() ? idMaps_.at(draw.mesh).name() : 0);

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "lambent/asset/asset.h"
@@ -14,6 +13,7 @@
 #include "lambent/render/gl_objects.h"
 #include "lambent/render/gl_view.h"
 #include "lambent/render/transfer_on_gpu.h"
+#include "lambent/scene/coverage.h"
 #include "lambent/shade/showing.h"
 
 namespace lambent::render {
@@ -27,9 +27,12 @@ class GlPatches {
  public:
   /// `asset` must outlive it, and fit together (asset::faultOf).
   GlPatches(const asset::Asset& asset, const GlPatchOptions& options, const shade::Showing& showing)
-      : asset_(&asset), options_(options), showing_(showing) {}
+      : asset_(&asset),
+        passings_(scene::passingsOf(asset.scene)),
+        options_(options),
+        showing_(showing) {}
 
-  /// Uploads a mesh with meso-structure and all that it needs.
+  /// Uploads a mesh with meso-structure and all that it needs. Meshes are to be added in sequence.
   Status add(std::uint32_t mesh, TransferOnGpu& transfer);
   /// Filter and dependence on the view, which need no other transfer.
   Status choose(const shade::Showing& showing);
@@ -44,7 +47,8 @@ class GlPatches {
     for (Draw& draw : draws_) each(draw.mesh, draw.light);
   }
 
-  /// Draws them into the bound framebuffer: as GlSurfaces::draw. A vertex array must be bound;
+  /// Draws them into the bound framebuffer: as GlSurfaces::draw, and before that, so that layers
+  /// are seen and not what they lie on, which is as deep. A vertex array must be bound;
   /// its element buffer is changed.
   void draw(const GlView& view, const GlBaseColors& colors, GLuint vertexArray) const;
   /// Calls draw(mesh, vertices, corners, count) for every piece: vertices hold positions and
@@ -69,8 +73,14 @@ class GlPatches {
     Texture heights;             ///< of all levels; none: views are not corrected
     Vec2 relief = Vec2::Zero();  ///< as shade::RttPyramid
   };
-  /// bands, encoding, filter, corrected views
-  using ProgramKey = std::tuple<int, transfer::Encoding, bool, bool>;
+  /// What a program is made for.
+  struct Shape {
+    int bands;
+    transfer::Encoding encoding;
+    bool filter, relief;  ///< … and whether views are corrected
+    bool gaps;            ///< it may be there in parts alone
+    auto operator<=>(const Shape&) const = default;
+  };
   struct Draw {
     std::uint32_t mesh = 0;
     Buffer vertices, triangles, corners;
@@ -81,8 +91,12 @@ class GlPatches {
 
   Result<Rtt> makeRtt(int index, bool filter) const;
   Status addIdMap(std::uint32_t mesh);
-  ProgramKey programOf(int index, const Rtt& rtt, bool filter) const;
-  Status addProgram(const ProgramKey& key);
+  Shape shapeOf(std::uint32_t mesh, bool relief, bool filter) const {
+    const transfer::EncodedRtt& rtt = rttOf(mesh);
+    return {rtt.bands, rtt.values.encoding, filter, relief,
+            passings_[mesh] != scene::Passing::Nothing};
+  }
+  Status addProgram(const Shape& shape);
   const transfer::BiScale<transfer::Numbers>& biScaleOf(std::uint32_t mesh) const {
     return std::get<transfer::BiScale<transfer::Numbers>>(asset_->transfer.meshes[mesh]);
   }
@@ -91,12 +105,13 @@ class GlPatches {
   }
 
   const asset::Asset* asset_;
+  std::vector<scene::Passing> passings_;
   GlPatchOptions options_;
   shade::Showing showing_;
   std::map<int, Rtt> rtts_;                  ///< by index into the asset's
   std::map<std::uint32_t, Texture> idMaps_;  ///< by mesh
-  std::map<ProgramKey, Program> programs_;
-  std::vector<Draw> draws_;
+  std::map<Shape, Program> programs_;
+  std::vector<Draw> draws_;  ///< layers first, the uppermost before the others
 };
 
 }  // namespace lambent::render

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "lambent/math/directions.h"
+#include "lambent/reference/relit_picture.h"
 #include "lambent/render/gl_context.h"
 #include "lambent/render/gl_picture_in_blocks.h"
 #include "lambent/render/renderer.h"
@@ -163,6 +164,56 @@ TEST(GlPatches, EqualTheCpuUnderATint) {
       asset.scene.meshes[1].colors.emplace_back(0.9f, 0.5f + 0.1f * p.x(), 0.4f - 0.1f * p.z());
     expectAgreement("patches-tinted-" + std::to_string(map), asset, kPatchCamera, small(2));
   }
+}
+
+/// How far the mean of many sub-samples is from what rays see.
+double apart(const std::string& name, const asset::Asset& asset, const scene::Camera& camera,
+             const shade::PictureOptions& options) {
+  const light::Environment sky = shade::test::sky();
+  const auto light = sky.project(5);
+  const auto rays = reference::relitPicture(asset, light, sky, camera, options);
+  const auto drawn = render::picture(asset, light, sky, camera, options);
+  EXPECT_TRUE(rays && drawn) << name;
+  if (!rays || !drawn) return 1.0;
+  double squares = 0;
+  Rgb sum = Rgb::Zero(), whole = Rgb::Zero();
+  for (std::size_t i = 0; i < rays->pixels.size(); ++i) {
+    squares += double((drawn->pixels[i] - rays->pixels[i]).square().mean());
+    sum += drawn->pixels[i] - rays->pixels[i], whole += rays->pixels[i];
+  }
+  EXPECT_LT((sum / whole).abs().maxCoeff(), 0.01f) << name << (sum / whole).transpose();
+  return std::sqrt(squares / double(rays->pixels.size()));
+}
+
+// All or nothing: without noise.
+TEST(GlPatches, LayersAreSeenBeforeWhatTheyLieOn) {
+  for (const bool map : {false, true}) {
+    asset::Asset asset = ballAndFloor(map ? mapped() : SpreadOptions(), 3, 4);
+    SpreadOptions options = map ? SpreadOptions() : mapped();
+    options.encoding = Encoding::Float16;
+    shade::test::addLayer(asset, 0, bumpyRtt(12, 20, 3, 4), options, {255});
+    shade::test::addLayer(asset, 1, bumpyRtt(20, 12, 6, 2), options, {255});
+    expectAgreement("patches-layered-" + std::to_string(map), asset, kPatchCamera, small(2));
+  }
+}
+
+TEST(GlPatches, LayersBlendAsTheirMasksSay) {
+  const SpreadOptions options;
+  asset::Asset asset;
+  addPatched(asset, scene::uvSphere(1.0f, 32, 16),
+             shade::test::flatRtt(2, 2, 2, 3, Rgb(0.2f, 0.4f, 0.6f)), options);
+  shade::test::addLayer(asset, 0, shade::test::flatRtt(1, 3, 1, 3, Rgb(0.9f, 0.1f, 0.3f)), options,
+                        {0, 64, 128, 255});
+  shade::test::addLayer(asset, 0, shade::test::flatRtt(1, 1, 4, 3, Rgb(0.05f, 0.7f, 0.5f)), options,
+                        {0, 0, 255, 128, 0, 0, 0, 0});
+  EXPECT_LT(apart("blended", asset, kPatchCamera, small(64)), 0.03);
+}
+
+TEST(GlPatches, ALayerMayLieOnABareSurface) {
+  asset::Asset asset;
+  shade::test::addDiffuse(asset, shade::test::sphere(Vec3::Zero(), 1.0f, 16), {});
+  shade::test::addLayer(asset, 0, bumpyRtt(12, 20, 3, 4), {}, {0, 255});
+  EXPECT_LT(apart("on a bare one", asset, kPatchCamera, small(64)), 0.03);
 }
 
 TEST(GlPatches, SayWhatIsNotHeld) {

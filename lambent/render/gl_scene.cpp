@@ -190,7 +190,8 @@ Status GlScene::mapSun(const light::SunPoint& sun, const Mat4* clipFromWorld, in
   colors_.bindTable();
   sunMap_->draw(sun, clipFromWorld, bounds_, [&] {
     const auto drawPiece = [&](std::uint32_t mesh, GLuint vertices, GLuint corners, int count) {
-      const bool gaps = colors_.hasGaps(mesh) && !isPatched(mesh);
+      if (asset_->scene.meshes[mesh].layer) return;  // what it lies on hides as much
+      const bool gaps = colors_.hasGaps(mesh);
       const Program& program = gaps ? sunMap_->gapsProgram() : sunMap_->wholeProgram();
       program.use();
       if (gaps) {
@@ -215,10 +216,10 @@ void GlScene::draw(const GlView& view, const GlEnvironment& environment) const {
     drawUnlit(view);
     return;
   }
+  patches_.draw(view, colors_, noAttributes_.name());
   surfaces_.draw(view,
                  {environment, mirrors_ ? &*mirrors_ : nullptr, sunMap_ ? &*sunMap_ : nullptr},
                  colors_, options_.showing, noAttributes_.name());
-  patches_.draw(view, colors_, noAttributes_.name());
 }
 
 void GlScene::drawUnlit(const GlView& view) const {
@@ -231,13 +232,13 @@ void GlScene::drawUnlit(const GlView& view) const {
     unlit_.set("reflectance", reflectance.x(), reflectance.y(), reflectance.z());
     unlit_.set("hasColor", int(!asset_->scene.meshes[mesh].colors.empty() && !isPatched(mesh)));
     colors_.bind(unlit_, mesh);
-    colors_.bindCoverage(unlit_, mesh, view.sample, !isPatched(mesh));
+    colors_.bindCoverage(unlit_, mesh, view.sample);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, vertices);
     glVertexArrayElementBuffer(noAttributes_.name(), corners);
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
   };
-  surfaces_.drawUnlit(drawPiece);
   patches_.drawUnlit(drawPiece);
+  surfaces_.drawUnlit(drawPiece);
 }
 
 }  // namespace lambent::render

@@ -98,6 +98,9 @@ struct Mesh {
   std::vector<float> alphas;  ///< of COLOR_0, [0, 1], or empty: 1 everywhere
   AllVertexNumbers others;    ///< what else the file has there
   std::vector<Triangle> triangles;
+  /// Whether it lies on another mesh, each of its triangles in the place of one of that: it is seen
+  /// before it (scene/layers.h), and what light meets on its way is the other alone.
+  bool layer = false;
   MeshSource source;
 };
 

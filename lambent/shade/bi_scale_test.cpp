@@ -252,6 +252,46 @@ TEST(BiScale, ReadsThePlacesThatTheMapNames) {
     }
 }
 
+// What is seen is m·b + (1 − m)·a, and with a second layer that of the first of both.
+TEST(BiScale, LayersShowWhatTheirMasksSay) {
+  const Rgb below(0.2f, 0.4f, 0.6f), middle(0.9f, 0.1f, 0.3f), above(0.05f, 0.7f, 0.5f);
+  asset::Asset asset = floorOf(test::flatRtt(2, 2, 2, 3, below), {});
+  test::addLayer(asset, 0, test::flatRtt(3, 2, 1, 3, middle), {}, {0, 64, 128, 255});
+  test::addLayer(asset, 0, test::flatRtt(1, 1, 2, 3, above), {}, {0, 255, 0, 128});
+  scene::Mesh& upper = asset.scene.meshes[2];
+  for (scene::Triangle& t : upper.triangles) t = {t[1], t[2], t[0]};
+  std::swap(upper.triangles[0], upper.triangles[1]);
+  PictureOptions options;
+  options.width = options.height = 16;
+  options.samples = 1;
+  const auto image = relitPicture(asset, uniformLight(3), {}, fromAbove(), options);
+  ASSERT_TRUE(image) << image.error().message;
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      const Vec2 uv((float(x) + 0.5f) / 16, 0.5f);
+      const float first = scene::sampleAlpha(asset.scene.textures[0], uv);
+      const float second = scene::sampleAlpha(asset.scene.textures[1], uv);
+      const Rgb expected = second * above + (1 - second) * (first * middle + (1 - first) * below);
+      EXPECT_LT((image->at(x, y) - expected).abs().maxCoeff(), 1e-4f) << x << ", " << y;
+      EXPECT_EQ(image->alpha[std::size_t(y) * 16 + x], 1.0f);
+    }
+}
+
+TEST(BiScale, ALayerOfTheSamePatchChangesNothing) {
+  const transfer::SimulatedRtt rtt = test::bumpyRtt(16, 12, 4, 3);
+  const asset::Asset plain = floorOf(rtt, {});
+  asset::Asset layered = plain;
+  test::addLayer(layered, 0, rtt, {}, {0, 64, 128, 255});
+  PictureOptions options;
+  options.width = options.height = 32;
+  const sh::RgbCoefficients light = unevenLight(3);
+  const auto a = relitPicture(plain, light, {}, fromAbove(), options);
+  const auto b = relitPicture(layered, light, {}, fromAbove(), options);
+  ASSERT_TRUE(a && b);
+  for (std::size_t i = 0; i < a->pixels.size(); ++i)
+    EXPECT_LT((a->pixels[i] - b->pixels[i]).abs().maxCoeff(), 1e-5f);
+}
+
 TEST(MacroTransport, IsTheStoredMatrices) {
   for (const Encoding encoding : {Encoding::Float32, Encoding::Float16, Encoding::Snorm8})
     for (const int channels : {1, 3}) {

@@ -135,4 +135,18 @@ void addPatched(asset::Asset& asset, scene::Mesh mesh, const transfer::Simulated
   asset.transfer.meshes.push_back(std::move(biScale));
 }
 
+void addLayer(asset::Asset& asset, std::uint32_t mesh, const transfer::SimulatedRtt& rtt,
+              const SpreadOptions& options, const std::vector<std::uint8_t>& alphas) {
+  addPatched(asset, asset.scene.meshes[mesh], rtt, options);
+  asset.scene.meshes.back().layer = true;
+  scene::Material& material = asset.scene.materials.back();
+  material.alphaMode = scene::AlphaMode::Blend;
+  material.baseColorTexture = int(asset.scene.textures.size());
+  scene::Texture& texture = asset.scene.textures.emplace_back();
+  texture.width = int(alphas.size()), texture.height = 1;
+  texture.wrapU = texture.wrapV = scene::Wrap::ClampToEdge;
+  for (const std::uint8_t alpha : alphas)
+    texture.rgba.insert(texture.rgba.end(), {255, 255, 255, alpha});
+}
+
 }  // namespace lambent::shade::test

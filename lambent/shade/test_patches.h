@@ -61,4 +61,9 @@ struct SpreadOptions {
 void addPatched(asset::Asset& asset, scene::Mesh mesh, const transfer::SimulatedRtt& rtt,
                 const SpreadOptions& options);
 
+/// Adds a layer of a mesh that is there: all of its triangles, with a patch spread over them, there as
+/// these alphas say, which lie side by side along u.
+void addLayer(asset::Asset& asset, std::uint32_t mesh, const transfer::SimulatedRtt& rtt,
+              const SpreadOptions& options, const std::vector<std::uint8_t>& alphas);
+
 }  // namespace lambent::shade::test

@@ -7,6 +7,7 @@
 
 #include "lambent/scene/sheets.h"
 #include "lambent/trace/embree_scene.h"
+#include "lambent/trace/veils.h"
 
 namespace lambent::trace {
 
@@ -36,10 +37,13 @@ Traced tracedOf(const scene::Scene& scene, const std::vector<scene::Passing>& pa
                 RayScene::Impl& impl) {
   Traced traced;
   const bool anyBacks = std::any_of(scene.meshes.begin(), scene.meshes.end(), scene::hasBacks);
-  impl.numbered = anyBacks || impl.holes;
+  const bool anyLayers = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                     [](const scene::Mesh& mesh) { return mesh.layer; });
+  impl.numbered = anyBacks || anyLayers || impl.holes;
   std::vector<Holes::Place> places;
   for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
     const scene::Mesh& mesh = scene.meshes[m];
+    if (mesh.layer) continue;
     const Geometry which = passings[m] == scene::Passing::Nothing ? kWhole : kHoled;
     const bool backs = anyBacks && scene::hasBacks(mesh);
     const std::size_t fronts = mesh.triangles.size() / (backs ? 2 : 1);
@@ -92,15 +96,17 @@ RayScene::~RayScene() = default;
 Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
   auto impl = std::make_unique<Impl>();
   std::size_t vertexCount = 0, triangleCount = 0;
+  bool anything = false;
   for (const scene::Mesh& mesh : scene.meshes) {
     impl->vertexOffsets.push_back(static_cast<std::uint32_t>(vertexCount));
     impl->triangleOffsets.push_back(static_cast<std::uint32_t>(triangleCount));
     vertexCount += mesh.positions.size();
     triangleCount += mesh.triangles.size();
+    anything = anything || (!mesh.layer && !mesh.triangles.empty());
   }
   impl->vertexOffsets.push_back(static_cast<std::uint32_t>(vertexCount));
   impl->triangleOffsets.push_back(static_cast<std::uint32_t>(triangleCount));
-  if (triangleCount == 0) return report::badInput("the scene has no triangles to trace");
+  if (!anything) return report::badInput("the scene has no triangles to trace");
   constexpr std::size_t kMost = 0x7fffffffu;
   if (triangleCount > kMost || vertexCount > kMost)
     return report::badInput("the scene has more than 2^31 triangles or vertices: split it");
@@ -110,7 +116,7 @@ Result<RayScene> RayScene::build(const scene::Scene& scene, Edges edges) {
   if (!impl->device) return embreeError(rtcGetDeviceError(nullptr), "starting");
   impl->scene = rtcNewScene(impl->device);
   if (edges == Edges::Watertight) rtcSetSceneFlags(impl->scene, RTC_SCENE_FLAG_ROBUST);
-  const std::vector<scene::Passing> passings = scene::passingsOf(scene);
+  const std::vector<scene::Passing> passings = passingsOnTheWay(scene);
   if (std::any_of(passings.begin(), passings.end(),
                   [](scene::Passing passing) { return passing != scene::Passing::Nothing; }))
     impl->holes = std::make_unique<Holes>(scene, passings);

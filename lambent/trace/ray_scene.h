@@ -26,8 +26,10 @@ struct Hit {
 /// faster, closest hits 4%.
 enum class Edges { Watertight, Fast };
 
-/// An immutable acceleration structure over all meshes of a scene. Triangles are also numbered
-/// through the whole scene ("global"), mesh after mesh; so are vertices. Movable; thread-safe.
+/// An immutable acceleration structure over all meshes of a scene but layers (scene/layers.h), which
+/// would hide what they lie on, and be hidden by it: light is blocked and sent on by that alone.
+/// Triangles are also numbered through the whole scene ("global"), mesh after mesh; so are vertices.
+/// Movable; thread-safe.
 class RayScene {
  public:
   /// Copies what it needs: `scene` need not outlive it. Fails on a scene without triangles.

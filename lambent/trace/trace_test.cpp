@@ -6,6 +6,7 @@
 #include "lambent/math/random.h"
 #include "lambent/scene/sheets.h"
 #include "lambent/trace/cast.h"
+#include "lambent/trace/veils.h"
 #include "lambent/work/flush_denormals.h"
 
 namespace lambent::trace {
@@ -163,6 +164,40 @@ TEST(Cast, TakesJustTheHemisphereAndAgreesWithSingleRays) {
       EXPECT_EQ(hit.backFace, single->backFace);
     }
   }
+}
+
+TEST(RayScene, DoesNotMeetLayers) {
+  scene::Scene scene = floorAndCeiling();
+  const auto before = RayScene::build(scene);
+  const std::uint32_t count = std::uint32_t(scene.meshes.size());
+  scene::Mesh layer = scene.meshes[0];
+  layer.layer = true;
+  layer.material = int(scene.materials.size());
+  scene.materials.emplace_back().alphaMode = scene::AlphaMode::Blend;
+  scene.materials.back().opacity = 0.5f;
+  scene.meshes.insert(scene.meshes.begin(), layer);
+  const auto after = RayScene::build(scene);
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(after->offset(), before->offset());
+  EXPECT_FALSE(Veils(scene).any());
+  math::Random random(5, 0, 0);
+  std::size_t met = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec2 u = random.uniform2();
+    const Vec3 origin(u.x() - 0.5f, 0.5f, u.y() - 0.5f);
+    const Vec3 direction = math::randomRotation(std::uint64_t(i)) * Vec3::UnitX();
+    const auto a = before->closest(origin, direction), b = after->closest(origin, direction);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (!a) continue;
+    ++met;
+    EXPECT_EQ(b->mesh, a->mesh + 1);
+    EXPECT_EQ(b->triangle, a->triangle);
+    EXPECT_EQ(b->distance, a->distance);
+  }
+  EXPECT_GT(met, 50u);
+  EXPECT_EQ(after->triangleOffsets().size(), count + 2);
+  scene.meshes.resize(1);
+  EXPECT_FALSE(RayScene::build(scene)) << "layers alone";
 }
 
 }  // namespace

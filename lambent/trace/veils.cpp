@@ -12,7 +12,14 @@ constexpr float kLeast = 1e-5f;   ///< share of light that is worth another ray
 
 }  // namespace
 
-Veils::Veils(const scene::Scene& scene) : scene_(scene), passings_(scene::passingsOf(scene)) {
+std::vector<scene::Passing> passingsOnTheWay(const scene::Scene& scene) {
+  std::vector<scene::Passing> passings = scene::passingsOf(scene);
+  for (std::size_t m = 0; m < passings.size(); ++m)
+    if (scene.meshes[m].layer) passings[m] = scene::Passing::Nothing;
+  return passings;
+}
+
+Veils::Veils(const scene::Scene& scene) : scene_(scene), passings_(passingsOnTheWay(scene)) {
   any_ = std::find(passings_.begin(), passings_.end(), scene::Passing::Shares) != passings_.end();
 }
 

@@ -10,6 +10,9 @@
 
 namespace lambent::trace {
 
+/// What rays on their way have to know of every mesh: they do not meet layers.
+std::vector<scene::Passing> passingsOnTheWay(const scene::Scene& scene);
+
 class Veils {
  public:
   /// Keeps a reference: the scene must outlive it.

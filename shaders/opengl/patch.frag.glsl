@@ -1,15 +1,15 @@
 // Exit radiance of a surface with meso-structure at one sub-sample: B(q, v) · (M L),
 // sloan2003biscale eq. 4, as shade::LitPatch, times the base colour. Alpha is as sample_alpha.glsl says.
 //
-// Before this text stand: #define LAMBENT_FILTER and LAMBENT_RELIEF, 0 or 1, and what these want: incident.glsl,
+// Before this text stand: #define LAMBENT_FILTER, LAMBENT_RELIEF and LAMBENT_ALPHA, 0 or 1, and what these want: incident.glsl,
 // corner_weights.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl, rtt_look_up.glsl,
-// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, sample_alpha.glsl; base_color.glsl,
-// base_color_map.glsl, whose texture is at binding 0.
+// tangent_frame.glsl, shading_normal.glsl, patch_place.glsl, sample_alpha.glsl; base_color.glsl, with
+// LAMBENT_ALPHA coverage.glsl, base_color_map.glsl, whose texture is at binding 0.
 
 struct Vertex {
   vec4 positionU;
   vec4 normalV;
-  vec4 tangent;
+  vec4 tangentAlpha;
 };
 struct Triangle {
   vec4 normal;                // by its winding, not unit
@@ -37,6 +37,9 @@ in vec3 position;
 in vec4 normalU;
 in vec4 tangentV;
 in vec3 tint;  // of the vertices
+#if LAMBENT_ALPHA
+in float vertexAlpha;
+#endif
 layout(location = 0) out vec4 radiance;
 
 #if !LAMBENT_INTERPOLATED
@@ -104,7 +107,13 @@ vec3 litRadiance(vec2 uvRight, vec2 uvUp) {
 void main() {
   vec2 uv = vec2(normalU.w, tangentV.w);
   vec2 uvRight = dFdx(uv), uvUp = dFdy(uv);
+#if LAMBENT_ALPHA
+  if (!isThere(vertexAlpha, uv, gl_FragCoord.xyz)) discard;
+#endif
   vec3 sent = vec3(0.0);
   if (gl_FrontFacing) sent = litRadiance(uvRight, uvUp);
+#if LAMBENT_ALPHA
+  sent /= max(kept, 1e-4);
+#endif
   radiance = vec4(sent, coveredAt(position, eye));
 }

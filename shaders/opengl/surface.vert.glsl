@@ -38,6 +38,9 @@ out vec4 incident[LAMBENT_GROUPS];
 #endif
 #endif
 
+// As deep as layers that lie on it.
+invariant gl_Position;
+
 void main() {
   Vertex vertex = vertices[gl_VertexID];
   position = vertex.positionU.xyz;

@@ -125,6 +125,65 @@ class Spread(BiScaleTest):
         self.refused(*spread, "none.png", says="none.png")
         self.refused(*spread, "light.hdr", says=["light.hdr", "PNG"])
 
+    def masked(self, *options, scene="quad.obj") -> dict:
+        self.rtt("weave")
+        self.rtt("stucco", "over.rtt")
+        self.write("quad.obj", quad_obj())
+        self.write("mask.png", png(8, 8, lambda x, y: (255, 0, 0) if x < 4 else (0, 0, 0)))
+        return self.spread("--rtt", "over.rtt", "--mask", "mask.png", *options, scene=scene,
+                           output="layered.glb")
+
+    def test_a_mask_shows_a_second_patch(self):
+        summary = self.masked("--patch-width", 0.5, "--patch-width", 0.25)
+        below, above = summary["surfaces"]
+        self.assertEqual((below["patch"], below["layer"], above["patch"], above["layer"]),
+                         ("weave", False, "stucco", True))
+        self.assertAlmostEqual(below["share"], 0.5, delta=0.01)
+        self.assertAlmostEqual(above["share"], 0.5, delta=0.01)
+        self.assertEqual((below["patch_width"], above["patch_width"]), (0.5, 0.25))
+        meshes = self.run_json("info", "layered.glb")["transfer"]["meshes"]
+        self.assertEqual([mesh["bi_scale"]["layer"] for mesh in meshes], [False, True])
+        self.assertEqual([mesh["bi_scale"]["rtt"] for mesh in meshes], [0, 1])
+        self.assertIn("a layer by a mask of", self.run_tool("info", "layered.glb").stdout)
+        # Beside each other: as each alone, but for where they blend.
+        for backend in ("gl", "cpu"):
+            self.run_tool("render", "layered.glb", "--light", "disc:30,45,40", "-o",
+                          backend + ".exr", "--size", "96", "--backend", backend, "--samples", 16)
+        self.run_tool("compare", "cpu.exr", "gl.exr", "--fail-above", "rmse=0.01")
+        # What is baked again is what carries them.
+        again = self.run_json("bake", "layered.glb", "-o", "again.glb", "--directions", 16)
+        self.assertIn("layers-left-out", {finding["code"] for finding in again["findings"]})
+        self.assertEqual(len(again["transfer"]["meshes"]), 1)
+
+    def test_a_mask_that_shows_nothing_is_said(self):
+        self.rtt()
+        self.write("quad.obj", quad_obj())
+        self.write("black.png", png(8, 8, lambda x, y: (0, 0, 0)))
+        summary = self.spread("--rtt", "patch.rtt", "--mask", "black.png", scene="quad.obj")
+        self.assertIn("mask-empty", {finding["code"] for finding in summary["findings"]})
+        self.assertEqual(len(summary["surfaces"]), 1)
+        self.write("grey.png", png(8, 8, lambda x, y: (128, 128, 128)))
+        summary = self.spread("--rtt", "patch.rtt", "--rtt", "patch.rtt", "--mask", "grey.png",
+                              scene="quad.obj")
+        self.assertIn("mask-grey", {finding["code"] for finding in summary["findings"]})
+        shares = [surface["share"] for surface in summary["surfaces"]]
+        for share, expected in zip(shares, (0.25, 0.25, 0.5)):
+            self.assertAlmostEqual(share, expected, delta=0.01)
+
+    def test_patches_and_mask_go_together(self):
+        self.rtt()
+        self.write("ball.obj", ball_obj())
+        self.write("red.png", png(8, 8, lambda x, y: (255, 0, 0)))
+        one = ("synthesize", "ball.obj", "-o", "a.glb", "--rtt", "patch.rtt")
+        two = (*one, "--rtt", "patch.rtt")
+        self.refused(*two, code=USAGE, says="--mask")
+        self.refused(*one, "--mask", "red.png", code=USAGE, says="--rtt")
+        self.refused(*two, "--rtt", "patch.rtt", "--rtt", "patch.rtt", "--rtt", "patch.rtt",
+                     "--mask", "red.png", code=USAGE, says="three patches")
+        self.refused(*one, "--patch-width", 1, "--patch-width", 2, code=USAGE, says="--patch-width")
+        self.refused(*two, "--mask", "red.png", says=["texture coordinates", "unwrap it"])
+        self.refused(*two, "--mask", "none.png", says="none.png")
+
     def test_it_lies_along_creases_unless_it_is_not_to(self):
         self.rtt("bricks")
         self.write("cube.obj", "\n".join(

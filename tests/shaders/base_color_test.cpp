@@ -1,5 +1,7 @@
 // shaders/base_color.glsl against scene::baseColorAt.
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "lambent/radiometry/srgb.h"
@@ -126,6 +128,30 @@ TEST(Coverage, AMaskHasAThresholdAndABlendAShareOfSubSamples) {
   EXPECT_NEAR(share(), 0.5, 5e-3);
   mapped::kept = 0.0f;
   EXPECT_EQ(share(), 0.0);
+}
+
+// Layers are neighbours by number: what one leaves of a pixel's sub-samples the next takes its share of.
+TEST(Coverage, OfBlendsOnEachOtherIsTheirProductInEveryPixel) {
+  scene::Texture texture;
+  texture.width = texture.height = 1;
+  texture.rgba = {255, 255, 255, 255};
+  mapped::texture = &texture;
+  mapped::kept = 1.0f;
+  mapped::alphaRule = vec2(1.0f, 0.5f);
+  mapped::alphaMode = 2;
+  for (int pixel = 0; pixel < 200; ++pixel) {
+    const vec3 fragment(pixel % 40 + 0.5f, pixel / 40 + 0.5f, 0.3f);
+    std::array<int, 3> pairs = {};
+    for (int sample = 0; sample < 256; ++sample) {
+      std::array<bool, 3> there;
+      for (int layer = 0; layer < 3; ++layer) {
+        mapped::veil = ivec2(4 + layer, sample);
+        there[std::size_t(layer)] = mapped::isThere(0.5f, vec2(0.5f), fragment);
+      }
+      for (std::size_t k = 0; k < 3; ++k) pairs[k] += there[k] && there[(k + 1) % 3];
+    }
+    for (const int both : pairs) EXPECT_NEAR(both / 256.0, 0.25, 0.05) << pixel;
+  }
 }
 
 // Nonsense in a file must not lead out of the texture.

@@ -19,6 +19,7 @@ import {
   sheetScene,
   texelScene,
 } from "../../../web/three-lambent/test/support/scenes.mjs";
+import { png } from "../../../web/three-lambent/test/support/glb.mjs";
 import { decodePng, meanDifference } from "./png.mjs";
 import { kSize, launch, openPage, serve, tool } from "./session.mjs";
 
@@ -58,6 +59,7 @@ const scenes = {
 };
 for (const [name, bytes] of Object.entries(scenes)) put(`${name}-scene.glb`, bytes);
 put("light.exr", environmentExr);
+put("mask.png", png(16, 8, (x, y) => [x % 8 < 4 ? 255 : 0, y < 3 ? 255 : 0, 0]));
 const quick = ["--directions", 512, "--bounces", 1, "--quiet"];
 const patch = ["--positions", "24x20", "--views", 4, "--directions", 128, "--bounces", 1];
 const spread = ["--directions", 256, "--map-size", 256, "--vertices", 8000, "--mesh", "ball"];
@@ -67,6 +69,13 @@ const synthesize = (scene, output, ...more) => {
   lambent("rtt", "weave", "-o", "patch.rtt", ...patch, "--quiet");
   lambent("synthesize", `${scene}-scene.glb`, "--rtt", "patch.rtt", "-o", output, ...spread, "--quiet",
     ...more);
+};
+
+/** Three patches over one mesh. */
+const layer = (scene, output, ...more) => {
+  lambent("rtt", "pebbles", "-o", "second.rtt", ...patch, "--quiet");
+  lambent("rtt", "bricks", "-o", "third.rtt", ...patch, "--quiet");
+  synthesize(scene, output, "--rtt", "second.rtt", "--rtt", "third.rtt", "--mask", "mask.png", ...more);
 };
 
 /** Each makes its asset; `reference` is what the path tracer takes, with more of its options. */
@@ -84,6 +93,10 @@ const kinds = {
   "bi-scale-id-map": { make: (to) => synthesize("ball", to, "--patch-width", 0.5), relief: true },
   "bi-scale-tinted": {
     make: (to) => synthesize("dyed", to, "--patch-width", 0.5, "--tint", "own"),
+    relief: true,
+  },
+  "bi-scale-layered": {
+    make: (to) => layer("dyed", to, "--patch-width", 0.5, "--tint", "own"),
     relief: true,
   },
   "bi-scale-tiles": {

@@ -5,7 +5,7 @@ import type { GLTF, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 import { LambentAsset } from "./asset/asset.js";
 import { AssetSource, type IncidentMode } from "./asset/asset-source.js";
 import type { MeshEntry } from "./asset/mesh-source.js";
-import { coverageOf, kWhole } from "./materials/coverage.js";
+import { coverageOf } from "./materials/coverage.js";
 import { extrasOf, type Extras } from "./asset/extras.js";
 import { isMirror, reflectanceOf } from "./asset/reflectance.js";
 import type { LambentNodes } from "./gpu/nodes.js";
@@ -116,9 +116,7 @@ export class LambentLoaderPlugin {
       const material = json.materials?.[index ?? -1];
       const colored = mesh.geometry.hasAttribute("color");
       const reflectance = reflectanceOf(material, colored);
-      // Meso-structure is whole.
-      const patched = description.primitives.get(key)?.biScale;
-      const coverage = patched ? kWhole : coverageOf(material, reflectance.transmitted);
+      const coverage = coverageOf(material, reflectance.transmitted);
       entries.push({ mesh, key, reflectance, coverage });
     });
     // What no scene shows, nobody can relight.

@@ -14,7 +14,7 @@ import {
   mattScene,
   mirrorScene,
 } from "./support/scenes.mjs";
-import { bakePatch, lambent, noTool } from "./support/tool.mjs";
+import { bakeLayers, bakePatch, lambent, noTool } from "./support/tool.mjs";
 
 /** With names for its materials. */
 function named(scene, ...names) {
@@ -52,6 +52,7 @@ describe("assets as objects of three's", { skip: noTool }, () => {
       lambent(folder, "bake", `${name}-scene.glb`, "-o", `${name}.glb`, ...quick, ...more);
     }
     bakePatch(folder);
+    bakeLayers(folder);
     const script = await bundle(readFileSync(new URL("page/objects.js", import.meta.url), "utf8"));
     browser = await openPage({ script, folder });
     await browser.page.waitForFunction("window.ready");
@@ -62,7 +63,7 @@ describe("assets as objects of three's", { skip: noTool }, () => {
   });
 
   describe("copies", () => {
-    for (const file of ["matt.glb", "glossy.glb", "mirror.glb", "patch.glb"])
+    for (const file of ["matt.glb", "glossy.glb", "mirror.glb", "patch.glb", "layered.glb"])
       it(`${file}: clones and instances, each turned, as assets loaded apart`, async () => {
         const found = await run(async (file) => {
           const { THREE, lambent, renderer, load, pixels, apart } = window;

@@ -73,6 +73,11 @@ export class MeshSource {
     return this.uv ? this.map : null;
   }
 
+  /** Whether it lies on another mesh. */
+  get layer(): boolean {
+    return this.transfer?.biScale?.layer ?? false;
+  }
+
   get isMirror(): boolean {
     return isMirror(this.reflectance);
   }

@@ -142,9 +142,10 @@ export class Mirrors {
 
   private drawOne(renderer: WebGLRenderer, { capture, mirrors }: Captured, size: number): void {
     this.meshes.forEach((each, i) => {
-      const { geometry, visible } = each.mesh;
+      const { geometry, visible, renderOrder } = each.mesh;
       Object.assign(this.copies[i], {
         geometry,
+        renderOrder,
         material: each.material,
         visible: visible && each !== mirrors[0],
       });

@@ -14,6 +14,7 @@ import { LitTexture } from "../gpu/lit-texture.js";
 import { kGroupsAFetch, kNumbersOf, RttTexture } from "../gpu/rtt-texture.js";
 import { TurnFrames, TurnPass } from "../gpu/turn-pass.js";
 import { patchShaders } from "../materials/patch-shaders.js";
+import { coverageUniforms, hasGaps } from "../materials/coverage.js";
 import type { RelitShaders } from "../materials/relit-material.js";
 import { macroOf } from "./choices.js";
 import type { MeshSource } from "./mesh-source.js";
@@ -101,6 +102,8 @@ export function buildPatch(
   } else {
     uniforms.tiles = { value: Float32Array.from(biScale.tiles) };
   }
+  const gaps = hasGaps(source.coverage);
+  if (gaps) Object.assign(uniforms, coverageUniforms(source.coverage, source.number));
   const [surroundings, around] = mesh.surroundings(choices);
   const { encoding } = rtt.numbers;
   const shape = {
@@ -111,6 +114,7 @@ export function buildPatch(
     filter: choices.filter,
     relief: heights !== null,
     idMap: biScale.idMap !== null,
+    gaps,
     map: source.texture,
     colored: source.colored,
     surroundings,

@@ -133,6 +133,10 @@ export class RelitMesh {
     };
     mesh.geometry = source.geometry;
     mesh.material = this.material;
+    if (!source.layer) return;
+    // After what it lies on, which is as deep, and after layers below it; before what is blended.
+    mesh.renderOrder = 1 + source.number;
+    this.material.transparent = false;
   }
 
   get transfer(): PrimitiveTransfer | null {

@@ -65,6 +65,8 @@ export interface BiScale {
   tangents: Float32Array;
   idMap: { width: number; height: number; ids: Uint16Array } | null;
   tiles: [number, number];
+  /** Whether each of its triangles lies on one of another primitive, before which it is seen. */
+  layer: boolean;
   shadowed: MacroMatrices | null;
   interreflected: MacroMatrices | null;
 }

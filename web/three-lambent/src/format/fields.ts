@@ -70,6 +70,13 @@ export class Fields {
     return value;
   }
 
+  boolean(key: string): boolean {
+    const value = this.raw(key);
+    if (typeof value !== "boolean")
+      this.fail(key, `is ${JSON.stringify(value)}, not true or false`);
+    return value;
+  }
+
   string(key: string): string {
     const value = this.raw(key);
     if (typeof value !== "string") this.fail(key, "is not a string");

@@ -204,6 +204,7 @@ async function readBiScale(
   if (fields.has("tiles")) tiles = fields.numbers("tiles", 2) as [number, number];
   if (!tiles.map(Math.fround).every((t) => Number.isFinite(t) && t !== 0))
     fields.fail("tiles", "must be finite and not 0");
+  const layer = fields.has("layer") && fields.boolean("layer");
   let shadowed: MacroMatrices | null = null;
   if (fields.has("shadowed"))
     shadowed = await readMacro(fields.object("shadowed"), accessors, receivers, bands, 1);
@@ -213,7 +214,7 @@ async function readBiScale(
     const channels = object.channels("channels");
     interreflected = await readMacro(object, accessors, receivers, bands, channels);
   }
-  return { rtt, bands, scale, tangents, idMap, tiles, shadowed, interreflected };
+  return { rtt, bands, scale, tangents, idMap, tiles, layer, shadowed, interreflected };
 }
 
 async function readRtt(

@@ -1,10 +1,10 @@
 // Exit radiance of a surface with meso-structure: B(q, v) · (M L), sloan2003biscale eq. 4, as
 // shaders/opengl/patch.frag.glsl and shade::LitPatch, times the base colour.
 //
-// Before this text stand: #define LAMBENT_FETCH, LAMBENT_FILTER, LAMBENT_RELIEF, LAMBENT_ID_MAP, each
-// 0 or 1, and what these want: incident.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl,
+// Before this text stand: #define LAMBENT_FETCH, LAMBENT_FILTER, LAMBENT_RELIEF, LAMBENT_ID_MAP,
+// LAMBENT_ALPHA, each 0 or 1, and what these want: incident.glsl, rtt_response.glsl, view_square.glsl, rtt_footprint.glsl,
 // rtt_look_up.glsl, tangent_frame.glsl, shading_normal.glsl, patch_place.glsl; the textures of the
-// first two; base_color.glsl, with a map base_color_map.glsl; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0;
+// first two; base_color.glsl, with LAMBENT_ALPHA coverage.glsl, with a map base_color_map.glsl; shading_point.glsl; LAMBENT_AIR, with what air_texels.glsl says, or 0;
 // LAMBENT_CAPTURED 1 with captured.glsl, or 0.
 
 #include <common>
@@ -13,6 +13,9 @@
 #include <clipping_planes_pars_fragment>
 
 in vec3 tangent_;
+#if LAMBENT_ALPHA
+in float vertexAlpha;
+#endif
 #if LAMBENT_FETCH
 flat in uvec3 corners;
 in vec3 barycentric;
@@ -55,6 +58,9 @@ void main() {
   vec3 alongY = area > 0.0 ? (xx * py - xy * px) / area : vec3(0.0);
   vec3 gradientX = qx.x * alongX + qy.x * alongY, gradientY = qx.y * alongX + qy.y * alongY;
 #endif
+#if LAMBENT_ALPHA
+  if (!isThere(vertexAlpha, point.uv, gl_FragCoord.xyz)) discard;
+#endif
   gl_FragColor = vec4(0.0, 0.0, 0.0, 1.0);
   if (gl_FrontFacing) {
 #if LAMBENT_FETCH
@@ -91,6 +97,9 @@ void main() {
 #endif
     gl_FragColor.rgb *= reflected;
   }
+#if LAMBENT_ALPHA
+  gl_FragColor.rgb /= max(kept, 1e-4);
+#endif
 #if LAMBENT_AIR
   if (eye.w > 0.0) gl_FragColor.rgb = seenThroughAir(point.position - eye.xyz, gl_FragColor.rgb);
 #endif

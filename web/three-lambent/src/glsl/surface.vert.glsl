@@ -27,6 +27,9 @@ flat out uvec3 corners;
 out vec3 barycentric;
 #endif
 
+// As deep as layers that lie on it.
+invariant gl_Position;
+
 out vec4 positionU;
 out vec4 normalV;
 out vec3 vertexColor;

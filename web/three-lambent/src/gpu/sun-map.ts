@@ -60,6 +60,8 @@ export interface Caster {
   geometry: BufferGeometry;
   coverage: Coverage;
   texture: Texture | null;
+  /** It lies on another, which hides as much. */
+  layer: boolean;
 }
 
 /** Depth of what is there alone. `number`: as the surface's own. */
@@ -163,6 +165,7 @@ export class SunMap {
     this.scene.matrixWorldAutoUpdate = false;
     for (const [number, caster] of casters.entries()) {
       const { geometry, coverage } = caster;
+      if (caster.layer) continue;
       if (!geometry.boundingBox) geometry.computeBoundingBox();
       this.bounds.union(geometry.boundingBox!);
       const clipFromAsset = this.material.uniforms.clipFromAsset;

@@ -3,6 +3,7 @@
 import { Vector2, type IUniform, type Texture } from "three";
 import { baseColor } from "../generated/baseColor.js";
 import { baseColorMap } from "../generated/baseColorMap.js";
+import { coverage } from "../generated/coverage.js";
 import { incident } from "../generated/incident.js";
 import { incidentTexture } from "../generated/incidentTexture.js";
 import { patchFrag } from "../generated/patchFrag.js";
@@ -35,6 +36,8 @@ export interface PatchShape {
   /** Whether views are corrected by their heights, which filtering takes. */
   relief: boolean;
   idMap: boolean;
+  /** It may be there in parts alone. */
+  gaps: boolean;
   /** Its tint: a texture, and whether vertices have colours. */
   map: Texture | null;
   colored: boolean;
@@ -55,7 +58,7 @@ export function patchShaders(
     GLOSSY: 0,
     PATCH: 1,
     SUN_SHARE: 0,
-    ALPHA: 0,
+    ALPHA: flag(shape.gaps),
     FETCH: flag(shape.fetch),
     UV: 1,
     TEXEL_UV: 0,
@@ -86,6 +89,7 @@ export function patchShaders(
     shadingPoint,
     patchPlace,
     baseColor,
+    shape.gaps ? coverage : "",
     shape.map ? baseColorMap : "",
     air,
     captured,

@@ -203,7 +203,10 @@ export const isThere = (
   const share = (mode === 2 ? kept.mul(whole) : kept).toVar();
   const layer = veil.number.mul(1024).add(int(depth.mul(512)));
   const number = veilNumber(ivec2(fragment), layer);
-  const seen = fract(number.add(float(veil.sample).mul(0.618033988))).lessThan(share);
+  const kind = veil.number.mod(int(3));
+  const others = select(kind.equal(1), float(0.754877666), float(0.569840291));
+  const turn = select(kind.equal(0), float(0.618033988), others);
+  const seen = fract(number.add(float(veil.sample).mul(turn))).lessThan(share);
   const there = share.greaterThanEqual(1).or(seen);
   return (mode === 1 ? whole.greaterThanEqual(rule.y).and(there) : there) as Bool;
 };
