@@ -345,9 +345,13 @@ struct Masked {
 
 TEST(SpreadPatch, ALayerLeavesWhatItLiesOnAsItWas) {
   Masked masked;
-  const Spread alone = spreadOrDie(masked.scene, masked.options);
   transfer::EncodedRtt over = paintedRtt(3, 16);
   over.name = "squares";
+  // Triangles as the narrower patch wants them, which are for both.
+  SpreadOptions narrow = masked.options;
+  narrow.patchWidth = 0.3f;
+  prepare(masked.scene, over, narrow);
+  const Spread alone = spreadOrDie(masked.scene, masked.options);
   masked.options.over = {{over, Rgb(0.9f, 0.2f, 0.1f), 0.3f}};
   const Spread both = spreadOrDie(masked.scene, masked.options);
   const Status sound = asset::checkForWriting(both.asset);
