@@ -80,9 +80,8 @@ void RefineArguments::addTo(CLI::App& app) {
          },
          "Cut triangles where shadows fall between vertices, until light there is off by no more "
          "than this: 0.01 of what a white surface sends back under an even sky. The surface stays "
-         "as it is, and the asset holds the finer mesh; meshes of --texels stay. Without this "
-         "option it is done where triangles are so large that shadows would be missed; 'off': "
-         "never")
+         "as it is, and the asset holds the finer mesh. Without this option it is done where "
+         "triangles are so large that shadows would be missed; 'off': never")
       ->expected(0, 1)
       ->option_text("[ERROR|off]")
       ->group("Transfer");

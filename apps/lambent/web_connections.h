@@ -18,8 +18,7 @@ struct ConnectionLimits {
   /// With each a thread. One more takes the place of the one that has kept us waiting the longest,
   /// or, if all are being answered, of the one that takes the longest to hear its answer.
   std::size_t connections = 128;
-  std::chrono::milliseconds room{
-      5000};  ///< for who was dismissed to end, before another is refused
+  std::chrono::milliseconds room{5000};  ///< for one that was dismissed to end, before a refusal
   std::size_t requestsPerConnection = 1000;
   std::size_t requestBytes = 64 << 10;      ///< of one request: its line and its headers
   std::chrono::milliseconds idle{5000};     ///< from one request to the first byte of the next
